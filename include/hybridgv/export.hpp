@@ -1,0 +1,13 @@
+/// \file
+/// \brief Marks what the shared library exports; everything else is hidden.
+#pragma once
+
+#if defined(_WIN32)
+#if defined(HYBRIDGV_BUILDING_LIBRARY)
+#define HYBRIDGV_EXPORT __declspec(dllexport)
+#else
+#define HYBRIDGV_EXPORT __declspec(dllimport)
+#endif
+#else
+#define HYBRIDGV_EXPORT __attribute__((visibility("default")))
+#endif

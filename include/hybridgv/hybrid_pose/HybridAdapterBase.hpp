@@ -1,0 +1,60 @@
+/// \file
+/// \brief The interface through which every function of the library reads correspondences.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "hybridgv/export.hpp"
+
+namespace hybridgv {
+namespace hybrid_pose {
+
+/// Gives access to hybrid correspondences between a query camera of unknown focal length and a rig of calibrated cameras.
+///
+/// The style is OpenGV's (the rig is viewpoint 1, the query is viewpoint 2), with one difference: the query's side is given as
+/// **image points** (u, v, 1), in pixels relative to the principal point and free of lens distortion, because bearing vectors
+/// would need the focal length that is to be found.
+///
+/// * 2D-2D correspondence i: the query's image point and a viewing ray in the rig's frame,
+///   `getCamOffset(i) + beta * getCamRotation(i) * getBearingVector(i)`, beta > 0.
+/// * 2D-3D correspondence i: the query's image point and a point in the rig's frame.
+///
+/// Adapters are only read, and may be shared between threads as long as the derived class's getters may.
+class HYBRIDGV_EXPORT HybridAdapterBase {
+ public:
+  virtual ~HybridAdapterBase();
+
+  virtual std::size_t getNumberCorrespondences2d2d() const = 0;
+  /// Image point (u, v, 1) of 2D-2D correspondence `index` in the query.
+  virtual Eigen::Vector3d getImagePoint2d2d(std::size_t index) const = 0;
+  /// Viewing direction of 2D-2D correspondence `index` in the frame of its rig camera; any positive length.
+  virtual Eigen::Vector3d getBearingVector(std::size_t index) const = 0;
+  /// The rig camera of 2D-2D correspondence `index`. Equal indices mean equal centres.
+  virtual int getCamIndex(std::size_t index) const = 0;
+  /// Centre of that rig camera, in the rig's frame.
+  virtual Eigen::Vector3d getCamOffset(std::size_t index) const = 0;
+  /// Rotation from that rig camera's frame to the rig's.
+  virtual Eigen::Matrix3d getCamRotation(std::size_t index) const = 0;
+  /// Focal length of that rig camera in its own pixels, 0 if unknown (the default). It only weighs the map image's part of the
+  /// Sampson error.
+  virtual double getRigFocalLength(std::size_t index) const;
+  /// Quality of 2D-2D correspondence `index`, larger is better (the default is 1 for all). Only the order matters.
+  virtual double getWeight2d2d(std::size_t index) const;
+
+  virtual std::size_t getNumberCorrespondences2d3d() const = 0;
+  /// Image point (u, v, 1) of 2D-3D correspondence `index` in the query.
+  virtual Eigen::Vector3d getImagePoint2d3d(std::size_t index) const = 0;
+  /// Its point in the rig's frame.
+  virtual Eigen::Vector3d getPoint(std::size_t index) const = 0;
+  /// Quality of 2D-3D correspondence `index`, likewise.
+  virtual double getWeight2d3d(std::size_t index) const;
+
+ protected:
+  HybridAdapterBase() = default;
+  HybridAdapterBase(const HybridAdapterBase&) = default;
+  HybridAdapterBase& operator=(const HybridAdapterBase&) = default;
+};
+
+}  // namespace hybrid_pose
+}  // namespace hybridgv

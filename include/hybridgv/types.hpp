@@ -1,0 +1,61 @@
+/// \file
+/// \brief The pose with focal length that everything here estimates, and the list of minimal solvers.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "hybridgv/export.hpp"
+#include "hybridgv/version.hpp"
+
+namespace hybridgv {
+
+/// Pose and focal length of the query camera with respect to the rig (the generalized camera, whose frame is the world frame of
+/// the 3D points).
+///
+/// A rig point X is seen at
+///
+///     (u, v) = focalLength * (x/z, y/z),   (x, y, z) = rotation^T (X - position),   z > 0,
+///
+/// with (u, v) relative to the principal point, lens distortion removed.
+///
+/// The members are OpenGV's: rotation turns query coordinates into rig coordinates, position is the query's centre seen from the
+/// rig. (The usual computer-vision pair X_query = R X_rig + t is R = rotation^T, t = -rotation^T position.)
+struct FocalPose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< query -> rig
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< centre of the query, in the rig's frame and unit
+  double focalLength = 1;                                  ///< in the unit of the query's image points, > 0
+
+  /// OpenGV's transformation_t [rotation | position]: what opengv::absolute_pose::gp3p returns for a camera without offset.
+  Eigen::Matrix<double, 3, 4> transformation() const {
+    Eigen::Matrix<double, 3, 4> result;
+    result << rotation, position;
+    return result;
+  }
+};
+
+using FocalPoses = std::vector<FocalPose>;
+
+// Whatever instruction set a program is compiled for, it must see the same layout as the library.
+static_assert(alignof(FocalPose) == alignof(double) && sizeof(FocalPose) == 13 * sizeof(double),
+              "hybridgv::FocalPose must not depend on Eigen's alignment settings");
+
+/// The minimal solvers. HmnF takes m 2D-2D and n 2D-3D correspondences.
+enum class Solver {
+  P4Pf,   ///< 4 2D-3D, at most 6 solutions
+  P35Pf,  ///< 4 2D-3D of which the last gives one equation only, at most 10 solutions
+  H13f,   ///< 1 2D-2D and 3 2D-3D, at most 12 solutions
+  H32f,   ///< 3 2D-2D and 2 2D-3D, at most 26 solutions
+  H51f,   ///< 5 2D-2D and 1 2D-3D, at most 56 solutions (9 if the five rays share one centre)
+};
+
+/// "p4pf", "p35pf", "h13f", "h32f", "h51f"
+HYBRIDGV_EXPORT const char* toString(Solver solver);
+/// The inverse of toString; std::invalid_argument for any other name, which lists the valid ones.
+HYBRIDGV_EXPORT Solver solverFromString(const std::string& name);
+
+/// The library's version at run time ("1.2.3"); HYBRIDGV_VERSION_STRING is that of the headers.
+HYBRIDGV_EXPORT const char* version();
+
+}  // namespace hybridgv

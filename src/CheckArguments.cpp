@@ -1,0 +1,67 @@
+#include "CheckArguments.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hybridgv {
+
+void throwInvalid(const std::string& argument, const std::string& reason) {
+  throw std::invalid_argument("hybridgv: " + argument + ": " + reason);
+}
+
+void checkIndices(const std::string& name, const std::vector<int>& indices, int needed, std::size_t available) {
+  if (indices.size() < static_cast<std::size_t>(needed))
+    throwInvalid(name, "needs " + std::to_string(needed) + " indices, got " + std::to_string(indices.size()));
+  for (int i = 0; i < needed; ++i) {
+    const int index = indices[static_cast<std::size_t>(i)];
+    if (index < 0 || static_cast<std::size_t>(index) >= available)
+      throwInvalid(name, "index " + std::to_string(index) + " is outside the " + std::to_string(available) +
+                             " correspondences of the adapter");
+    for (int j = 0; j < i; ++j)
+      if (indices[static_cast<std::size_t>(j)] == index) throwInvalid(name, "index " + std::to_string(index) + " is repeated");
+  }
+}
+
+void checkMultiIndices(const std::string& name, const std::vector<std::vector<int>>& indices, int rays, int points,
+                       const hybrid_pose::HybridAdapterBase& adapter) {
+  if (indices.size() != 2) throwInvalid(name, "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
+  checkIndices(name + "[0] (2D-2D)", indices[0], rays, adapter.getNumberCorrespondences2d2d());
+  checkIndices(name + "[1] (2D-3D)", indices[1], points, adapter.getNumberCorrespondences2d3d());
+}
+
+static void checkFinite(const char* what, int index, const Eigen::Vector3d& value) {
+  if (!value.allFinite())
+    throwInvalid(
+        std::string("adapter.") + what + "(" + std::to_string(index) + ")",
+        "not finite: (" + std::to_string(value[0]) + ", " + std::to_string(value[1]) + ", " + std::to_string(value[2]) + ")");
+}
+
+// (u, v, w) -> (u/w, v/w)
+static Eigen::Vector3d readImagePoint(const char* what, int index, const Eigen::Vector3d& homogeneous) {
+  const Eigen::Vector3d point = homogeneous / homogeneous[2];
+  checkFinite(what, index, point);
+  return point;
+}
+
+solvers::RayMatch readRay(const hybrid_pose::HybridAdapterBase& adapter, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  const Eigen::Vector3d image = readImagePoint("getImagePoint2d2d", index, adapter.getImagePoint2d2d(i));
+  const Eigen::Vector3d direction = adapter.getCamRotation(i) * adapter.getBearingVector(i);
+  const double length = direction.norm();
+  if (!(length > 0) || !std::isfinite(length))
+    throwInvalid("adapter.getCamRotation(" + std::to_string(index) + ") * getBearingVector(" + std::to_string(index) + ")",
+                 "its length must be positive and finite, is " + std::to_string(length));
+  const Eigen::Vector3d centre = adapter.getCamOffset(i);
+  checkFinite("getCamOffset", index, centre);
+  return {image[0], image[1], centre, direction / length, adapter.getCamIndex(i)};
+}
+
+solvers::PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  const Eigen::Vector3d image = readImagePoint("getImagePoint2d3d", index, adapter.getImagePoint2d3d(i));
+  const Eigen::Vector3d point = adapter.getPoint(i);
+  checkFinite("getPoint", index, point);
+  return {image[0], image[1], point};
+}
+
+}  // namespace hybridgv

@@ -1,0 +1,26 @@
+// The checks at every public entry. A wrong call is answered by std::invalid_argument that names the argument and its value.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+#include "solvers/MinimalSolver.hpp"
+
+namespace hybridgv {
+
+[[noreturn]] void throwInvalid(const std::string& argument, const std::string& reason);
+
+// `indices` must have at least `needed` entries (the first `needed` are used), different and below `available`.
+void checkIndices(const std::string& name, const std::vector<int>& indices, int needed, std::size_t available);
+
+// Multi-indices {2D-2D, 2D-3D}.
+void checkMultiIndices(const std::string& name, const std::vector<std::vector<int>>& indices, int rays, int points,
+                       const hybrid_pose::HybridAdapterBase& adapter);
+
+// A correspondence of the adapter as plain data; throws unless it is finite, with a ray of non-zero length.
+solvers::RayMatch readRay(const hybrid_pose::HybridAdapterBase& adapter, int index);
+solvers::PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index);
+
+}  // namespace hybridgv

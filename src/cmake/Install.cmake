@@ -1,0 +1,26 @@
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hybridgv)
+install(TARGETS hybridgv EXPORT hybridgvTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(EXPORT hybridgvTargets NAMESPACE hybridgv:: DESTINATION ${package_dir})
+export(EXPORT hybridgvTargets NAMESPACE hybridgv:: FILE ${PROJECT_BINARY_DIR}/hybridgvTargets.cmake)
+foreach(root ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/adapters/arrays/include
+             ${PROJECT_SOURCE_DIR}/adapters/opengv/include ${PROJECT_SOURCE_DIR}/adapters/sfm/include
+             ${PROJECT_BINARY_DIR}/include)
+  install(DIRECTORY ${root}/hybridgv DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endforeach()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hybridgvConfig.cmake.in ${PROJECT_BINARY_DIR}/hybridgvConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hybridgvConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/hybridgvConfig.cmake ${PROJECT_BINARY_DIR}/hybridgvConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake DESTINATION ${package_dir})
+configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake ${PROJECT_BINARY_DIR}/hybridgvOpenGV.cmake COPYONLY)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgv.pc.in ${PROJECT_BINARY_DIR}/hybridgv.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/hybridgv.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,12 @@
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+
+namespace hybridgv {
+namespace hybrid_pose {
+
+HybridAdapterBase::~HybridAdapterBase() = default;
+double HybridAdapterBase::getRigFocalLength(std::size_t /*index*/) const { return 0; }
+double HybridAdapterBase::getWeight2d2d(std::size_t /*index*/) const { return 1; }
+double HybridAdapterBase::getWeight2d3d(std::size_t /*index*/) const { return 1; }
+
+}  // namespace hybrid_pose
+}  // namespace hybridgv

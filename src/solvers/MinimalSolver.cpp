@@ -1,0 +1,24 @@
+#include "solvers/MinimalSolver.hpp"
+
+#include <stdexcept>
+
+#include "solvers/solvers.hpp"
+
+namespace hybridgv {
+namespace solvers {
+
+static const MinimalSolver kMinimalSolvers[] = {
+    {Solver::P4Pf, "p4pf", 0, 4, 6, 1.7, &p4pf},
+    {Solver::P35Pf, "p35pf", 0, 4, 10, 2.6, &p35pf},
+    {Solver::H13f, "h13f", 1, 3, 12, 4.2, &h13f},
+    {Solver::H51f, "h51f", 5, 1, 56, 500, &h51f},
+};
+
+const MinimalSolver& minimalSolver(Solver id) {
+  for (const MinimalSolver& solver : kMinimalSolvers)
+    if (solver.id == id) return solver;
+  throw std::invalid_argument("hybridgv::Solver: no such minimal solver: " + std::to_string(static_cast<int>(id)));
+}
+
+}  // namespace solvers
+}  // namespace hybridgv

@@ -1,0 +1,30 @@
+#include "hybridgv/hybrid_pose/methods.hpp"
+#include "hybridgv/hybrid_pose/residuals.hpp"
+#include "solvers/solvers.hpp"
+namespace hybridgv {
+namespace solvers {
+int p4pf(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
+int p35pf(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
+int h13f(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
+int h51f(const RayMatch* r, const PointMatch* p, FocalPose* s) { return h51fOneCentre(r, p, s); }
+int h51fOneCentre(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
+int sixptOnefocal(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
+}  // namespace solvers
+namespace hybrid_pose {
+NonlinearResult optimize_nonlinear(const HybridAdapterBase&, const std::vector<std::vector<int>>&, const FocalPose& i) {
+  NonlinearResult r;
+  r.pose = i;
+  return r;
+}
+NonlinearResult optimize_nonlinear(const HybridAdapterBase&, const FocalPose& i) {
+  NonlinearResult r;
+  r.pose = i;
+  return r;
+}
+double reprojectionError(const FocalPose&, const Eigen::Vector3d&, const Eigen::Vector3d&) { return 0; }
+double sampsonError(const FocalPose&, const Eigen::Vector3d&, const Eigen::Vector3d&, const Eigen::Vector3d&,
+                    const Eigen::Matrix3d&, double) {
+  return 0;
+}
+}  // namespace hybrid_pose
+}  // namespace hybridgv
