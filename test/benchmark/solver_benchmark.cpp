@@ -1,0 +1,155 @@
+// Time per call of every minimal solver, through its public function and an adapter, in microseconds and as a ratio to OpenGV's
+// gp3p in the same run.
+//
+//   solver_benchmark [--markdown] [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
+//
+// Every row cycles through 1000 different random problems. The repetitions of all rows are mixed in random order, so that other
+// work on the machine burdens all rows alike; the table shows medians. For a new solver add one line to kRows.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <opengv/absolute_pose/methods.hpp>
+#include <string>
+#include <vector>
+
+#include "Gp3pProblem.hpp"
+#include "MinimalProblem.hpp"
+#include "TableReporter.hpp"
+#include "hybridgv/absolute_pose/methods.hpp"
+#include "hybridgv/hybrid_pose/methods.hpp"
+#include "hybridgv/relative_pose/methods.hpp"
+
+namespace hybridgv {
+namespace benchmarks {
+namespace {
+
+constexpr int kProblems = 1000;
+constexpr int kRepetitions = 25;
+constexpr double kSecondsPerRepetition = 0.02;
+constexpr std::uint64_t kSeed = 7102;
+constexpr double kRecovered = 1e-6;  // rotation [rad] and relative focal length
+
+using MultiIndices = std::vector<std::vector<int>>;
+using Call = FocalPoses (*)(const hybrid_pose::HybridAdapterBase&, const MultiIndices&);
+
+struct RowDescription {
+  const char* name;
+  std::vector<int> raysPerCamera;
+  int points;
+  Call call;
+};
+
+const std::vector<RowDescription> kRows = {
+    {"p4pf", {}, 4, [](const auto& adapter, const MultiIndices& i) { return absolute_pose::p4pf(adapter, i[1]); }},
+    {"p35pf", {}, 4, [](const auto& adapter, const MultiIndices& i) { return absolute_pose::p35pf(adapter, i[1]); }},
+    {"h13f", {1}, 3, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h13f(adapter, i); }},
+    {"h51f [5]", {5}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
+    {"sixpt_onefocal",
+     {6},
+     0,
+     [](const auto& adapter, const MultiIndices& i) { return relative_pose::sixpt_onefocal(adapter, i[0]); }},
+};
+
+struct Statistics {
+  int problems = 0, recovered = 0;
+  std::size_t solutions = 0, most = 0;
+
+  void add(std::size_t count, double error) {
+    ++problems;
+    recovered += error < kRecovered;
+    solutions += count;
+    most = std::max(most, count);
+  }
+  void writeTo(benchmark::State& state) const {
+    state.counters["mean solutions"] = static_cast<double>(solutions) / problems;
+    state.counters["max solutions"] = static_cast<double>(most);
+    state.counters["recovered %"] = 100.0 * recovered / problems;
+  }
+};
+
+void configure(benchmark::internal::Benchmark* row) {
+  row->Repetitions(kRepetitions)->MinTime(kSecondsPerRepetition)->Unit(benchmark::kMicrosecond);
+}
+
+void registerSolver(const RowDescription& description) {
+  struct Data {
+    std::vector<NoncentralHybridAdapter> adapters;
+    MultiIndices indices;
+    Statistics statistics;
+  };
+  const auto data = std::make_shared<Data>();
+  int rays = 0;
+  for (int count : description.raysPerCamera) rays += count;
+  data->indices.resize(2);
+  for (int i = 0; i < rays; ++i) data->indices[0].push_back(i);
+  for (int i = 0; i < description.points; ++i) data->indices[1].push_back(i);
+  for (std::uint64_t i = 0; i < kProblems; ++i) {
+    test::Random random(kSeed, i);
+    const test::MinimalProblem problem = test::makeMinimalProblem(random, description.raysPerCamera, description.points);
+    data->adapters.push_back(test::makeAdapter(problem));
+    const FocalPoses solutions = description.call(data->adapters.back(), data->indices);
+    data->statistics.add(solutions.size(), test::distanceToNearest(solutions, problem.truth));
+  }
+  configure(benchmark::RegisterBenchmark(description.name, [data, call = description.call](benchmark::State& state) {
+    std::size_t i = 0;
+    for (auto _ : state) {
+      benchmark::DoNotOptimize(call(data->adapters[i], data->indices));
+      i = (i + 1) % kProblems;
+    }
+    data->statistics.writeTo(state);
+  }));
+}
+
+void registerGp3p() {
+  struct Data {
+    std::vector<std::unique_ptr<Gp3pProblem>> problems;
+    Statistics statistics;
+  };
+  const auto data = std::make_shared<Data>();
+  for (std::uint64_t i = 0; i < kProblems; ++i) {
+    test::Random random(kSeed, i);
+    data->problems.push_back(std::make_unique<Gp3pProblem>(random));
+    const Gp3pProblem& problem = *data->problems.back();
+    const opengv::transformations_t solutions = opengv::absolute_pose::gp3p(problem.adapter());
+    double error = 1;
+    for (const auto& solution : solutions) error = std::min(error, (solution.leftCols<3>() - problem.truthRotation()).norm());
+    data->statistics.add(solutions.size(), error);
+  }
+  configure(benchmark::RegisterBenchmark("gp3p", [data](benchmark::State& state) {
+    const std::vector<int> indices{0, 1, 2};
+    std::size_t i = 0;
+    for (auto _ : state) {
+      benchmark::DoNotOptimize(opengv::absolute_pose::gp3p(data->problems[i]->adapter(), indices));
+      i = (i + 1) % kProblems;
+    }
+    data->statistics.writeTo(state);
+  }));
+}
+
+}  // namespace
+}  // namespace benchmarks
+}  // namespace hybridgv
+
+int main(int argc, char** argv) {
+  using namespace hybridgv::benchmarks;
+  std::string interleave = "--benchmark_enable_random_interleaving=true";
+  std::vector<char*> arguments{argv[0], interleave.data()};
+  bool markdown = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--markdown") == 0)
+      markdown = true;
+    else
+      arguments.push_back(argv[i]);
+  }
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
+  registerGp3p();
+  for (const RowDescription& row : kRows) registerSolver(row);
+  TableReporter reporter("gp3p", markdown);
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+}
