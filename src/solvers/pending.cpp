@@ -1,5 +1,4 @@
 #include "hybridgv/hybrid_pose/methods.hpp"
-#include "hybridgv/hybrid_pose/residuals.hpp"
 #include "solvers/solvers.hpp"
 namespace hybridgv {
 namespace solvers {
@@ -20,11 +19,6 @@ NonlinearResult optimize_nonlinear(const HybridAdapterBase&, const FocalPose& i)
   NonlinearResult r;
   r.pose = i;
   return r;
-}
-double reprojectionError(const FocalPose&, const Eigen::Vector3d&, const Eigen::Vector3d&) { return 0; }
-double sampsonError(const FocalPose&, const Eigen::Vector3d&, const Eigen::Vector3d&, const Eigen::Vector3d&,
-                    const Eigen::Matrix3d&, double) {
-  return 0;
 }
 }  // namespace hybrid_pose
 }  // namespace hybridgv

@@ -10,13 +10,42 @@
 namespace hybridgv {
 namespace hybrid_pose {
 
-/// Distance [px] of the image point (u, v, 1) from the projection of the rig point; infinite if the point is not in front of the
-/// query or anything is not finite.
+/// Distance of an observed image point from the projection of its rig point,
+///
+///     | (u, v) - f (x/z, y/z) |,   (x, y, z) = rotation^T (X - position).
+///
+/// \param imagePoint  (u, v, 1), or any multiple of it [px]
+/// \param point       X, in the rig's frame
+/// \return pixels; infinite if the point is not in front of the query (z <= 0) or anything is not finite. Never NaN.
 HYBRIDGV_EXPORT double reprojectionError(const FocalPose& pose, const Eigen::Vector3d& imagePoint, const Eigen::Vector3d& point);
 
-/// Sampson error [px] of a 2D-2D correspondence: to first order, how far the two image points (query and map) must move together
-/// to satisfy the epipolar constraint. The map image's pixel is taken from rigFocalLength, or from the query's focal length where
-/// that is 0 (unknown). Infinite if the viewing rays do not meet in front of both cameras or anything is not finite.
+/// Sampson error of a 2D-2D correspondence: to first order, how far the two image points (query and map) must move together to
+/// satisfy the epipolar constraint.
+///
+/// In the rig's frame let r1, r2, r3 be the columns of `rotation`, w = u r1 + v r2 + f r3 the query's viewing direction,
+/// t = camOffset - position, D the direction of the rig camera's ray (scaled to depth 1 in that camera), and a1, a2 the axes of
+/// its image. The constraint is
+///
+///     C = w . (t x D) = 0,
+///
+/// its derivatives by the query's pixels are r1 . l and r2 . l with l = t x D, by the map image's pixels a1 . n / g and a2 . n /
+/// g with n = w x t and g the map image's focal length, and the error is
+///
+///     |C| / sqrt( (r1.l)^2 + (r2.l)^2 + ((a1.n)^2 + (a2.n)^2) / g^2 ).
+///
+/// \param imagePoint      (u, v, 1) in the query, or any multiple of it [px]
+/// \param bearingVector   viewing direction in the rig camera's frame, any positive length
+/// \param camOffset       centre of the rig camera, in the rig's frame
+/// \param camRotation     rig camera's frame -> rig's
+/// \param rigFocalLength  g [px]; where it is 0 (unknown), g is the query's focal length
+///
+/// A bearing vector that does not point forwards (z <= 0, omnidirectional cameras) has no pixel in a pinhole image: its error is
+/// measured in the tangent plane of the unit sphere, with g pixels per radian; D then has length 1 and a1, a2 span that plane.
+///
+/// \return pixels; infinite if the two viewing rays do not meet in front of both cameras (where the closest points of the two
+/// lines
+///         decide; parallel rays do not meet), if the query lies in the rig camera's centre, or if anything is not finite. Never
+///         NaN.
 HYBRIDGV_EXPORT double sampsonError(const FocalPose& pose, const Eigen::Vector3d& imagePoint,
                                     const Eigen::Vector3d& bearingVector, const Eigen::Vector3d& camOffset,
                                     const Eigen::Matrix3d& camRotation, double rigFocalLength);

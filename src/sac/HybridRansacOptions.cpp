@@ -1,0 +1,75 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
+#include "CheckArguments.hpp"
+#include "hybridgv/sac/HybridRansac.hpp"
+
+namespace hybridgv {
+namespace sac {
+
+static void require(bool holds, const char* name, double value, const char* expected) {
+  if (!holds) throwInvalid(std::string("options.") + name, "must be " + std::string(expected) + ", is " + std::to_string(value));
+}
+
+static void checkInitialPose(const FocalPose& pose) {
+  constexpr double kTolerance = 1e-6;  // admits rotations that were written with seven digits
+  const char* name = "options.initialPose";
+  if (!pose.rotation.allFinite() || !pose.position.allFinite()) throwInvalid(name, "not finite");
+  const double error = (pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kTolerance) || pose.rotation.col(0).cross(pose.rotation.col(1)).dot(pose.rotation.col(2)) < 0)
+    throwInvalid(name, "its rotation is not a rotation matrix");
+  if (!(pose.focalLength > 0) || !std::isfinite(pose.focalLength))
+    throwInvalid(name, "its focal length must be positive and finite, is " + std::to_string(pose.focalLength));
+}
+
+void HybridRansacOptions::check() const {
+  const auto positiveFinite = [](double value) { return value > 0 && std::isfinite(value); };
+  require(positiveFinite(maxReprojectionErrorPx), "maxReprojectionErrorPx", maxReprojectionErrorPx, "positive and finite");
+  require(positiveFinite(maxEpipolarErrorPx), "maxEpipolarErrorPx", maxEpipolarErrorPx, "positive and finite");
+  require(successProbability > 0 && successProbability < 1, "successProbability", successProbability, "between 0 and 1");
+  require(maxIterations > 0, "maxIterations", maxIterations, "positive");
+  require(minIterations >= 0 && minIterations <= maxIterations, "minIterations", minIterations, "in 0 .. maxIterations");
+  require(timeBudgetSeconds > 0, "timeBudgetSeconds", timeBudgetSeconds, "positive");
+  require(minFocalLength >= 0 && std::isfinite(minFocalLength), "minFocalLength", minFocalLength, "finite and not negative");
+  require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength, "greater than minFocalLength");
+  require(threads >= 0, "threads", threads, "0 (all cores) or positive");
+  if (solvers.empty() && !initialPose) throwInvalid("options.solvers", "empty, and there is no initialPose");
+  for (const SolverPrior& entry : solvers)
+    require(positiveFinite(entry.prior), ("solvers[" + std::string(hybridgv::toString(entry.solver)) + "].prior").c_str(),
+            entry.prior, "positive and finite");
+  if (initialPose) checkInitialPose(*initialPose);
+}
+
+const char* toString(FailureReason reason) {
+  switch (reason) {
+    case FailureReason::None:
+      return "none";
+    case FailureReason::TooFewCorrespondences:
+      return "too few correspondences";
+    case FailureReason::NoModel:
+      return "no pose with inliers";
+    case FailureReason::InliersMayBeChance:
+      return "inliers may be chance";
+    case FailureReason::UndeterminedPose:
+      return "pose not determined by the inliers";
+  }
+  throwInvalid("reason", "no such value: " + std::to_string(static_cast<int>(reason)));
+}
+
+const char* toString(StopReason reason) {
+  switch (reason) {
+    case StopReason::NotStarted:
+      return "not started";
+    case StopReason::Confident:
+      return "confident";
+    case StopReason::MaxIterations:
+      return "maximum of iterations";
+    case StopReason::TimeBudget:
+      return "time budget";
+  }
+  throwInvalid("reason", "no such value: " + std::to_string(static_cast<int>(reason)));
+}
+
+}  // namespace sac
+}  // namespace hybridgv
