@@ -1,0 +1,39 @@
+/// \file
+/// \brief What the readers throw.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "hybridgv/export.hpp"
+
+namespace hybridgv {
+namespace sfm {
+
+/// A file that cannot be read, with the place where it went wrong. what() is "FILE:LINE: reason" or "FILE: byte OFFSET: reason".
+class HYBRIDGV_EXPORT FileError : public std::runtime_error {
+ public:
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+  static FileError inFile(const std::string& file, const std::string& reason);
+  static FileError atLine(const std::string& file, std::size_t line, const std::string& reason);
+  static FileError atByte(const std::string& file, std::size_t byteOffset, const std::string& reason);
+  FileError(const FileError&) = default;
+  FileError& operator=(const FileError&) = default;
+  ~FileError() override;
+
+  const std::string& file() const { return file_; }
+  /// Line counted from 1 (text files), or kNowhere.
+  std::size_t line() const { return line_; }
+  /// Offset from the start of the file (binary files), or kNowhere.
+  std::size_t byteOffset() const { return byteOffset_; }
+
+ private:
+  FileError(const std::string& what, const std::string& file, std::size_t line, std::size_t byteOffset);
+  std::string file_;
+  std::size_t line_, byteOffset_;
+};
+
+}  // namespace sfm
+}  // namespace hybridgv

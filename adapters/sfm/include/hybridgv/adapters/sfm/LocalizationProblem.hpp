@@ -1,0 +1,82 @@
+/// \file
+/// \brief A photo to be localized against the other photos of a sparse model, and the text format of such problems.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybridgv/adapters/NoncentralHybridAdapter.hpp"
+#include "hybridgv/adapters/sfm/SparseModel.hpp"
+#include "hybridgv/export.hpp"
+#include "hybridgv/types.hpp"
+
+namespace hybridgv {
+namespace sfm {
+
+/// How makeLocalizationProblem turns tracks into correspondences.
+struct LocalizationProblemOptions {
+  /// A point becomes a 2D-3D correspondence only if the viewing rays of two map images meet in it at this angle or a larger one.
+  double minParallaxDeg = 2;
+  /// ... and if it projects to within this distance of what every map image has observed.
+  double maxMapReprojectionErrorPx = 4;
+};
+
+/// Hybrid correspondences of one query image.
+struct LocalizationProblem {
+  std::string imageName;
+  NoncentralHybridAdapter adapter;
+  /// Pose and focal length of the query according to the model; never used in making the correspondences.
+  std::optional<FocalPose> reference;
+  /// For every camera index of the adapter: the image of the model, SparseModel::images (empty if read from a file).
+  std::vector<std::size_t> rigImages;
+  /// For every correspondence: the point of the model, SparseModel::points (empty if read from a file).
+  std::vector<std::size_t> points2d2d, points2d3d;
+  /// For every correspondence: true if injectOutliers has given it a wrong image point.
+  std::vector<bool> isOutlier2d2d, isOutlier2d3d;
+};
+
+/// Makes `model.images[imageIndex]` a query of unknown pose and focal length, and the other images the rig (leave-one-out).
+///
+/// The query's observations are taken out of every track. A track that one map image still sees gives a 2D-2D correspondence: the
+/// query's image point and that image's viewing ray. A track that two or more still see is triangulated again, without the query
+/// (least squares over their reprojection errors), and gives a 2D-3D correspondence. Where their rays meet at a small angle, the
+/// point is uncertain in depth and gives a 2D-2D correspondence with one of them instead; so it does where the triangulated point
+/// does not fit the observations.
+///
+/// Image points are in pixels of the query, undistorted and relative to its principal point (see undistort()); observations
+/// outside the invertible range of the distortion are left out. The rig's frame is the model's. Rig focal lengths are set.
+///
+/// \param imageIndex  index into model.images (not the id in the file)
+/// \throws std::invalid_argument for an index out of range, an image that is not registered, a model with invalid indices, options
+///         that are negative or not finite
+HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
+                                                            const LocalizationProblemOptions& options = {});
+
+/// The problem with wrong matches: of the correspondences of each type a share (rounded to the nearest count) is chosen at random,
+/// and the query image points of all chosen ones are permuted so that none keeps its own. A single one cannot be permuted and is
+/// left as it is. The same seed gives the same result on every platform.
+/// \param share  0 .. 1
+/// \throws std::invalid_argument for a share outside 0 .. 1
+HYBRIDGV_EXPORT LocalizationProblem injectOutliers(const LocalizationProblem& problem, double share, std::uint64_t seed);
+
+/// Reads the text format of problems. Lines, in any order, `#` starts a comment:
+///
+///     query f qw qx qy qz tx ty tz   (at most one) reference: focal length [px] and x_query = R(q) X + t, the inverse of FocalPose
+///     cam id cx cy cz                a rig camera and its centre
+///     p3 u v X Y Z                   2D-3D: image point [px], undistorted, relative to the principal point; point of the rig
+///     p2 u v camid qx qy qz          2D-2D: image point; direction of the ray in the rig's frame, from that camera's centre
+///
+/// The rig cameras' frames are parallel to the rig's, their focal lengths unknown. imageName is the file's name without folder and
+/// extension.
+/// \throws FileError for a malformed file
+HYBRIDGV_EXPORT LocalizationProblem readProblem(const std::string& path);
+
+/// Writes that format, with as many digits as are needed to read the same numbers again.
+/// \throws FileError if the file cannot be written
+HYBRIDGV_EXPORT void writeProblem(const std::string& path, const LocalizationProblem& problem);
+
+}  // namespace sfm
+}  // namespace hybridgv
