@@ -5,9 +5,6 @@ namespace solvers {
 int p4pf(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
 int p35pf(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
 int h13f(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
-int h51f(const RayMatch* r, const PointMatch* p, FocalPose* s) { return h51fOneCentre(r, p, s); }
-int h51fOneCentre(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
-int sixptOnefocal(const RayMatch*, const PointMatch*, FocalPose*) { return 0; }
 }  // namespace solvers
 namespace hybrid_pose {
 NonlinearResult optimize_nonlinear(const HybridAdapterBase&, const std::vector<std::vector<int>>&, const FocalPose& i) {

@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -34,7 +35,7 @@ class TableReporter : public benchmark::BenchmarkReporter {
     for (const Run& run : runs) {
       if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
       const std::string& name = run.run_name.function_name;
-      if (!rows_.count(name)) order_.push_back(name);
+      order_[run.family_index] = name;
       Row& row = rows_[name];
       row.microseconds.push_back(1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations));
       for (const auto& counter : run.counters) row.counters[counter.first] = counter.second.value;
@@ -47,7 +48,8 @@ class TableReporter : public benchmark::BenchmarkReporter {
         markdown_ ? "| solver | us per call | x %s | mean solutions | max solutions | recovered %% |\n|---|---|---|---|---|---|\n"
                   : "%-16s us per call   x %s   mean solutions   max solutions   recovered %%\n",
         markdown_ ? yardstick_.c_str() : "solver", yardstick_.c_str());
-    for (const std::string& name : order_) {
+    for (const auto& entry : order_) {
+      const std::string& name = entry.second;
       Row& row = rows_[name];
       const double time = median(row.microseconds);
       std::printf(markdown_ ? "| %s | %.2f | %.3f | %.2f | %.0f | %.2f |\n" : "%-16s %11.2f   %6.3f   %14.2f   %13.0f   %11.2f\n",
@@ -63,7 +65,7 @@ class TableReporter : public benchmark::BenchmarkReporter {
   };
   std::string yardstick_;
   bool markdown_;
-  std::vector<std::string> order_;
+  std::map<std::int64_t, std::string> order_;  // by registration
   std::map<std::string, Row> rows_;
 };
 

@@ -16,7 +16,36 @@ namespace hybrid_pose {
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 
-/// H51f. `indices[0]`: five 2D-2D correspondences, `indices[1]`: one 2D-3D one.
+/// H51f: pose and focal length of the query from five 2D-2D correspondences and one 2D-3D correspondence.
+///
+/// Equations, for the image points (u_k, v_k) of the viewing rays c_k + beta q_k and (u, v) of the point X (rig frame):
+///
+///     lambda_k (u_k, v_k, f) = rotation^T (c_k + beta_k q_k - position),   lambda_k > 0, beta_k > 0,   k = 1..5,
+///     lambda (u, v, f) = rotation^T (X - position),   lambda > 0.
+///
+/// \param[in] adapter Correspondences: image points in pixels relative to the principal point (any scale); rays and points in the
+///                    rig's frame and unit.
+/// \param[in] indices indices[0]: five 2D-2D correspondences, indices[1]: one 2D-3D correspondence; more are ignored. The
+/// overload
+///                    without indices takes the first five and the first.
+/// \return Poses with positive focal length that satisfy all equations; an empty list if there is none or the data are
+///         degenerate.
+///
+/// Configuration [5], all five rays from one rig camera: at most 9 poses (1.6 on average). The line of sight from the rig camera
+/// to X acts as a sixth ray; the problem is relative_pose::sixpt_onefocal, and X fixes the length of the baseline. Method: the
+/// real roots of a binary form of degree 9. Cost: about a quarter of opengv::absolute_pose::gp3p (4 microseconds where that takes
+/// 16). Poses with a focal length below 1e-4 times the largest image coordinate are left out. Degenerate, nothing is returned: X
+/// and the five points in one plane (then the focal length is not determined), the query at the rig camera's centre, X there or
+/// on the line through both centres, fewer than six independent constraints (repeated correspondences, all image points equal,
+/// ..), two image points exactly at the principal point.
+///
+/// Other configurations are not available in this version.
+///
+/// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite, rays of
+///         different rig cameras.
+///
+/// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
+/// correspondences", WACV 2023, which poses the problem and counts its solutions.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter);
 

@@ -2,8 +2,8 @@
 /// \brief Readers and writers of sparse models: COLMAP (text and binary), Bundler, NVM.
 ///
 /// Every reader throws FileError, with file and line or byte offset, for a file that is missing, truncated or malformed: a word
-/// where a number is expected, NaN, infinite or out-of-range values, an index or id that names nothing, an id that occurs twice, a
-/// count that does not fit the contents, anything after the end. The memory taken is proportional to the size of the files,
+/// where a number is expected, NaN, infinite or out-of-range values, an index or id that names nothing, an id that occurs twice,
+/// a count that does not fit the contents, anything after the end. The memory taken is proportional to the size of the files,
 /// whatever counts they declare.
 ///
 /// The time taken is that of parsing the numbers: about a second for a hundred megabytes of text.
@@ -43,8 +43,8 @@ HYBRIDGV_EXPORT SparseModel readBundler(const std::string& path);
 
 /// The first model of a VisualSFM file (NVM_V3, also with "FixedK fx cx fy cy"); the following models are checked but not kept.
 ///
-/// Image positions are relative to the principal point; radial distortion is that of CameraModel::NvmRadial. With FixedK, the focal
-/// lengths are fx and fy. A double quote in an image name stands for a space.
+/// Image positions are relative to the principal point; radial distortion is that of CameraModel::NvmRadial. With FixedK, the
+/// focal lengths are fx and fy. A double quote in an image name stands for a space.
 HYBRIDGV_EXPORT SparseModel readNvm(const std::string& path);
 
 /// Writes cameras.txt, images.txt, points3D.txt into an existing folder; images that are not registered are left out. Numbers are
