@@ -1,0 +1,143 @@
+#include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "CheckArguments.hpp"
+#include "Triangulation.hpp"
+
+namespace hybridgv {
+namespace sfm {
+namespace {
+
+// One correspondence of the query, before the rig cameras are numbered.
+struct RayMatch {
+  Eigen::Vector3d imagePoint, bearing;
+  std::size_t image, point;
+};
+struct PointMatch {
+  Eigen::Vector3d imagePoint, position;
+  std::size_t point;
+};
+struct Matches {
+  std::vector<RayMatch> rays;
+  std::vector<PointMatch> points;
+};
+
+std::string element(const char* list, std::size_t index) {
+  return std::string("model.") + list + "[" + std::to_string(index) + "]";
+}
+
+const Camera& cameraOf(const SparseModel& model, std::size_t image) {
+  const std::size_t camera = model.images[image].camera;
+  if (camera >= model.cameras.size()) throwInvalid(element("images", image), "there is no camera " + std::to_string(camera));
+  return model.cameras[camera];
+}
+
+void checkOptions(const LocalizationProblemOptions& options) {
+  const auto check = [](const char* name, double value) {
+    if (!(value >= 0) || !std::isfinite(value))
+      throwInvalid(name, "must be finite and not negative, is " + std::to_string(value));
+  };
+  check("options.minParallaxDeg", options.minParallaxDeg);
+  check("options.maxMapReprojectionErrorPx", options.maxMapReprojectionErrorPx);
+}
+
+// What the images other than the query see of the point: one view per image, in the order of the track.
+struct MapViews {
+  std::vector<View> views;
+  std::vector<std::size_t> images;
+};
+
+MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t query) {
+  MapViews result;
+  for (const TrackElement& e : model.points[pointIndex].track) {
+    if (e.image >= model.images.size() || e.observation >= model.images[e.image].observations.size())
+      throwInvalid(element("points", pointIndex), "the track names an observation that does not exist");
+    const bool seen = std::find(result.images.begin(), result.images.end(), e.image) != result.images.end();
+    const Image& image = model.images[e.image];
+    if (e.image == query || !image.registered || seen) continue;
+    const Camera& camera = cameraOf(model, e.image);
+    const Observation& o = image.observations[e.observation];
+    if (const std::optional<Eigen::Vector3d> point = undistort(camera, o.x, o.y)) {
+      result.views.push_back({image.rotation, image.position, focalLength(camera), (*point)[0], (*point)[1]});
+      result.images.push_back(e.image);
+    }
+  }
+  return result;
+}
+
+Matches findMatches(const SparseModel& model, std::size_t query, const LocalizationProblemOptions& options) {
+  const Camera& camera = cameraOf(model, query);
+  const double minParallax = options.minParallaxDeg * std::acos(-1.0) / 180;
+  std::vector<std::size_t> seen;
+  Matches matches;
+  for (const Observation& o : model.images[query].observations) {
+    if (o.point == Observation::kNoPoint) continue;
+    if (o.point >= model.points.size()) throwInvalid(element("images", query), "there is no point " + std::to_string(o.point));
+    const std::optional<Eigen::Vector3d> imagePoint = undistort(camera, o.x, o.y);
+    if (!imagePoint) continue;
+    const MapViews map = viewsOf(model, o.point, query);
+    if (map.views.empty()) continue;
+    if (map.views.size() >= 2 && largestParallax(map.views) >= minParallax) {
+      const Triangulation result = triangulate(map.views);
+      if (result.isInFront && result.largestError <= options.maxMapReprojectionErrorPx) {
+        matches.points.push_back({*imagePoint, result.point, o.point});
+        continue;
+      }
+    }
+    matches.rays.push_back({*imagePoint, map.views[0].direction(), map.images[0], o.point});
+  }
+  return matches;
+}
+
+LocalizationProblem toProblem(const SparseModel& model, const Matches& matches) {
+  std::vector<std::size_t> rig;
+  for (const RayMatch& match : matches.rays) rig.push_back(match.image);
+  std::sort(rig.begin(), rig.end());
+  rig.erase(std::unique(rig.begin(), rig.end()), rig.end());
+
+  NoncentralHybridAdapter::Vectors centres, imagePoints2d2d, bearings, imagePoints2d3d, positions;
+  NoncentralHybridAdapter::Matrices rotations;
+  std::vector<int> camIndices;
+  std::vector<double> focalLengths;
+  std::vector<std::size_t> points2d2d, points2d3d;
+  for (const std::size_t image : rig) {
+    centres.push_back(model.images[image].position);
+    rotations.push_back(model.images[image].rotation);
+    focalLengths.push_back(focalLength(cameraOf(model, image)));
+  }
+  for (const RayMatch& match : matches.rays) {
+    imagePoints2d2d.push_back(match.imagePoint);
+    bearings.push_back(match.bearing);
+    camIndices.push_back(static_cast<int>(std::lower_bound(rig.begin(), rig.end(), match.image) - rig.begin()));
+    points2d2d.push_back(match.point);
+  }
+  for (const PointMatch& match : matches.points) {
+    imagePoints2d3d.push_back(match.imagePoint);
+    positions.push_back(match.position);
+    points2d3d.push_back(match.point);
+  }
+  NoncentralHybridAdapter adapter(imagePoints2d2d, bearings, camIndices, centres, rotations, imagePoints2d3d, positions);
+  adapter.setRigFocalLengths(focalLengths);
+  const std::vector<bool> none2d2d(points2d2d.size()), none2d3d(points2d3d.size());
+  return {"", std::move(adapter), std::nullopt, std::move(rig), std::move(points2d2d), std::move(points2d3d), none2d2d, none2d3d};
+}
+
+}  // namespace
+
+LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
+                                            const LocalizationProblemOptions& options) {
+  checkOptions(options);
+  if (imageIndex >= model.images.size())
+    throwInvalid("imageIndex", std::to_string(imageIndex) + " is outside the " + std::to_string(model.images.size()) + " images");
+  const Image& query = model.images[imageIndex];
+  if (!query.registered) throwInvalid("imageIndex", "image " + std::to_string(imageIndex) + " (" + query.name + ") has no pose");
+  LocalizationProblem problem = toProblem(model, findMatches(model, imageIndex, options));
+  problem.imageName = query.name;
+  problem.reference = FocalPose{query.rotation, query.position, focalLength(cameraOf(model, imageIndex))};
+  return problem;
+}
+
+}  // namespace sfm
+}  // namespace hybridgv

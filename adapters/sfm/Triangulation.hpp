@@ -1,0 +1,33 @@
+// The point that several calibrated images see.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hybridgv {
+namespace sfm {
+
+// An undistorted image point of a camera with known pose: (u, v) = focalLength * (x/z, y/z), (x, y, z) = rotation^T (X -
+// position).
+struct View {
+  Eigen::Matrix3d rotation;  // camera -> model
+  Eigen::Vector3d position;
+  double focalLength, u, v;  // [px]
+
+  Eigen::Vector3d direction() const;  // of the viewing ray in the camera's frame, unit length
+};
+
+struct Triangulation {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  bool isInFront = false;   // finite, and in front of every camera
+  double largestError = 0;  // of the reprojections [px], if isInFront
+};
+
+// Minimises the sum of squared reprojection errors of two or more views: Gauss-Newton from the point nearest to all rays.
+Triangulation triangulate(const std::vector<View>& views);
+
+// The largest angle [rad] between the viewing rays of two views.
+double largestParallax(const std::vector<View>& views);
+
+}  // namespace sfm
+}  // namespace hybridgv

@@ -1,0 +1,110 @@
+#include <cmath>
+#include <numeric>
+
+#include "CheckArguments.hpp"
+#include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
+
+namespace hybridgv {
+namespace sfm {
+namespace {
+
+using Vectors = NoncentralHybridAdapter::Vectors;
+
+// splitmix64
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::size_t index(std::size_t count) { return static_cast<std::size_t>(next() % count); }
+
+ private:
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+// A random order of the first `count` entries among all of them.
+void shuffleFront(std::vector<std::size_t>& entries, std::size_t count, Random& random) {
+  for (std::size_t i = 0; i < count; ++i) std::swap(entries[i], entries[i + random.index(entries.size() - i)]);
+}
+
+// round(share * count) different numbers first, first + 1, .. first + count - 1.
+std::vector<std::size_t> choose(std::size_t first, std::size_t count, double share, Random& random) {
+  std::vector<std::size_t> entries(count);
+  std::iota(entries.begin(), entries.end(), first);
+  const auto chosen = static_cast<std::size_t>(std::lround(share * static_cast<double>(count)));
+  shuffleFront(entries, chosen, random);
+  entries.resize(chosen);
+  return entries;
+}
+
+// The adapter with other image points: first those of the 2D-2D correspondences, then those of the 2D-3D ones.
+NoncentralHybridAdapter withImagePoints(const NoncentralHybridAdapter& adapter, const Vectors& imagePoints) {
+  const std::size_t rays = adapter.getNumberCorrespondences2d2d();
+  Vectors bearings, centres, points;
+  NoncentralHybridAdapter::Matrices rotations;
+  std::vector<int> camIndices;
+  std::vector<double> focalLengths, weights2d2d, weights2d3d;
+  for (std::size_t i = 0; i < rays; ++i) {
+    const auto camera = static_cast<std::size_t>(adapter.getCamIndex(i));
+    if (camera >= centres.size()) {  // cameras in between that no ray uses may have any pose
+      centres.resize(camera + 1, Eigen::Vector3d::Zero());
+      rotations.resize(camera + 1, Eigen::Matrix3d::Identity());
+      focalLengths.resize(camera + 1, 0);
+    }
+    centres[camera] = adapter.getCamOffset(i);
+    rotations[camera] = adapter.getCamRotation(i);
+    focalLengths[camera] = adapter.getRigFocalLength(i);
+    camIndices.push_back(adapter.getCamIndex(i));
+    bearings.push_back(adapter.getBearingVector(i));
+    weights2d2d.push_back(adapter.getWeight2d2d(i));
+  }
+  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d3d(); ++i) {
+    points.push_back(adapter.getPoint(i));
+    weights2d3d.push_back(adapter.getWeight2d3d(i));
+  }
+  const auto split = imagePoints.begin() + static_cast<std::ptrdiff_t>(rays);
+  NoncentralHybridAdapter result(Vectors(imagePoints.begin(), split), bearings, camIndices, centres, rotations,
+                                 Vectors(split, imagePoints.end()), points);
+  result.setRigFocalLengths(focalLengths);
+  result.setWeights(weights2d2d, weights2d3d);
+  return result;
+}
+
+}  // namespace
+
+LocalizationProblem injectOutliers(const LocalizationProblem& problem, double share, std::uint64_t seed) {
+  if (!(share >= 0 && share <= 1)) throwInvalid("share", "must be in 0 .. 1, is " + std::to_string(share));
+  const std::size_t rays = problem.adapter.getNumberCorrespondences2d2d();
+  const std::size_t points = problem.adapter.getNumberCorrespondences2d3d();
+  Random random(seed);
+  std::vector<std::size_t> chosen = choose(0, rays, share, random);
+  const std::vector<std::size_t> chosenPoints = choose(rays, points, share, random);
+  chosen.insert(chosen.end(), chosenPoints.begin(), chosenPoints.end());
+  shuffleFront(chosen, chosen.size(), random);
+  if (chosen.size() < 2) return problem;
+
+  Vectors original;
+  for (std::size_t i = 0; i < rays; ++i) original.push_back(problem.adapter.getImagePoint2d2d(i));
+  for (std::size_t i = 0; i < points; ++i) original.push_back(problem.adapter.getImagePoint2d3d(i));
+  Vectors permuted = original;
+  LocalizationProblem result = problem;
+  result.isOutlier2d2d.resize(rays);
+  result.isOutlier2d3d.resize(points);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {  // one cycle through all chosen ones: none keeps its own
+    const std::size_t to = chosen[i];
+    permuted[to] = original[chosen[(i + 1) % chosen.size()]];
+    if (to < rays)
+      result.isOutlier2d2d[to] = true;
+    else
+      result.isOutlier2d3d[to - rays] = true;
+  }
+  result.adapter = withImagePoints(problem.adapter, permuted);
+  return result;
+}
+
+}  // namespace sfm
+}  // namespace hybridgv
