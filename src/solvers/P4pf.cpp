@@ -1,0 +1,110 @@
+// P4Pf: four 2D-3D points, eight equations for seven unknowns.
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/ThreePointSolver.hpp"
+#include "solvers/solvers.hpp"
+
+namespace hybridgv {
+namespace solvers {
+namespace {
+
+using math::Complex;
+using math::Pair;
+
+// The image of the line through X4 = X3 + y along the normal e3 of the plane of the other points passes through p:
+// im(conj(E(y)) E(e3)) = 0. The position of X4 along that line, the eighth equation, only ranks the solutions.
+//
+// With y_r = y . e_rho and so on, p' = p3 - p, delta = depth of X3 / rho, K = im(p', zr) - im(p3, p) this is free of rho,
+//
+//     g = -y_p (S - R + re(p, zr)) + y_r re(p, zf) - delta (re(p', zf) + n3 K) = 0,
+//
+// and w2^2 times the product over the roots eta is a form of degree 6. It does not contain y3: the four points may be coplanar.
+class NormalEquation {
+ public:
+  static constexpr int kDegree = 6;
+
+  NormalEquation(const ThreePointFrame& frame, const PointMatch& match)
+      : frame_(frame), p_(frame.image(match.u, match.v)), difference_(frame.p3 - p_), y_(frame.fromX3(match.point)) {
+    area_ = im(frame.p3, p_);
+    k11_ = im(difference_, frame.A11 - frame.p3), k21_ = im(difference_, frame.A21);
+    k1_ = im(difference_, frame.D1), k2_ = im(difference_, frame.D2);
+    triangle_ = im(frame.D2, frame.D1);
+  }
+
+  double product(const Sheets& at, const Sheet<Pair>& sheet) const {
+    const Pair K = im(difference_, sheet.zr) - area_;
+    const Pair value = linearPart(at, sheet) - sheet.delta * (re(difference_, sheet.zf) + sheet.n3() * K);
+    return (at.w2 * value[0]) * (at.w2 * value[1]);
+  }
+
+  double norm(const Sheets& at, const Sheet<Complex>& sheet) const {
+    // n3 delta K modulo W(eta), without the division by S
+    const Planar<Complex> y = (at.c * frame_.A21 + at.s * (frame_.p3 - frame_.A11)) + sheet.eta * frame_.D2;
+    const Complex X = (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) + k2_ * re(sheet.zr, y)) *
+                      (-1 / triangle_);
+    return squaredNorm(at.w2 * (linearPart(at, sheet) - sheet.delta * re(difference_, sheet.zf) - X));
+  }
+
+  Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double) const {
+    const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
+    const double K = im(difference_, sheet.zr) - area_;
+    const double terms[6] = {yp * sheet.R,
+                             -yp * sheet.S,
+                             -yp * re(p_, sheet.zr),
+                             yr * re(p_, sheet.zf),
+                             -sheet.delta * re(difference_, sheet.zf),
+                             -sheet.delta * n3 * K};
+    Residual result{0, 0};
+    for (double term : terms) result.value += term, result.magnitude += std::abs(term);
+    return result;
+  }
+
+  WithGradient<double> constraint(const SurfacePoint& point) const {
+    return area(point.point(frame_, p_, y_), point.direction(p_, Eigen::Vector3d(0, 0, 1)));
+  }
+
+  // For rho = 0 the equation holds for every f, so that this case uses both parts of E(y) = 0.
+  double frontoParallelStart(double side) const {
+    const ImagePoint b = y_[0] * frame_.D1 + y_[1] * frame_.D2 + difference_;
+    return side * y_[2] * re(b, p_) / re(b, b);
+  }
+  FrontoParallelPoint::Row frontoParallelConstraint(const FrontoParallelPoint& point) const {
+    return point.point(frame_, p_, y_);
+  }
+
+  // The image error of X4.
+  double rank(const FramePose& pose) const {
+    const Eigen::Vector3d point = pose.transform(y_);
+    const Eigen::Vector3d normal(pose.r1[2], pose.r2[2], pose.r3[2]);
+    // E(y) and E(e3)
+    const ImagePoint a{pose.f * point[0] - p_.x * point[2], pose.f * point[1] - p_.y * point[2]};
+    const ImagePoint b{pose.f * normal[0] - p_.x * normal[2], pose.f * normal[1] - p_.y * normal[2]};
+    if (!(std::abs(im(a, b)) <= kMaxImageError * point[2] * std::sqrt(re(b, b)))) return -1;
+    return imageError(pose, point, p_);
+  }
+
+ private:
+  template <class T>
+  T linearPart(const Sheets& at, const Sheet<T>& sheet) const {
+    const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
+    return yp * (sheet.R - sheet.S - re(p_, sheet.zr)) + yr * re(p_, sheet.zf);
+  }
+
+  const ThreePointFrame& frame_;
+  ImagePoint p_, difference_;
+  Eigen::Vector3d y_;  // from X3
+  double area_, k11_, k21_, k1_, k2_, triangle_;
+};
+
+}  // namespace
+
+int p4pf(const RayMatch*, const PointMatch* points, FocalPose* solutions) {
+  ThreePointFrame frame;
+  if (!frame.set(points[0], points[1], points[2], std::max(std::abs(points[3].u), std::abs(points[3].v)))) return 0;
+  const NormalEquation equation(frame, points[3]);
+  return ThreePointSolver<NormalEquation>(frame, equation, solutions).solve();
+}
+
+}  // namespace solvers
+}  // namespace hybridgv
