@@ -1,6 +1,7 @@
 // Views along the normal of the plane of three points (rho = 0), where the angle of ThreePointSheets.hpp means nothing.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "solvers/ThreePointPose.hpp"
@@ -84,7 +85,8 @@ bool refineFrontoParallel(FrontoParallelPoint& point, const ThreePointFrame& fra
     const Eigen::Vector3d step = -normal.inverse() * (jacobian.transpose() * value);
     if (!step.allFinite()) return false;
     point.u += step[0], point.v += step[1], point.d += step[2];
-    if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) / (1 + std::abs(point.d)) < 1e-12) return point.update(frame, side);
+    if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) / (1 + std::abs(point.d)) < 1e-12)
+      return point.update(frame, side);
   }
   return false;
 }

@@ -52,12 +52,13 @@ class RayEquation {
     const Along along(*this, at);
     // n3 delta K modulo W(eta), without the division by S
     const Planar<Complex> y = (at.c * frame_.A21 + at.s * (frame_.p3 - frame_.A11)) + sheet.eta * frame_.D2;
-    const Complex X = (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) +
-                       k2_ * re(sheet.zr, y)) *
-                      (-1 / triangle_);
+    const Complex X =
+        (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) + k2_ * re(sheet.zr, y)) * (-1 / triangle_);
     const Complex K = im(difference_, sheet.zr) - area_;
-    const Complex odd = m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (along.qr * K + along.qp * im(difference_, sheet.zf));
-    const Complex oddN3 = m_[2] * (re(p_, sheet.zr) - sheet.R) + along.qp * (sheet.delta * re(difference_, sheet.zr)) + along.qr * X;
+    const Complex odd =
+        m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (along.qr * K + along.qp * im(difference_, sheet.zf));
+    const Complex oddN3 =
+        m_[2] * (re(p_, sheet.zr) - sheet.R) + along.qp * (sheet.delta * re(difference_, sheet.zr)) + along.qr * X;
     const Complex even = along.mr * (sheet.R - sheet.S - re(p_, sheet.zr)) - along.mp * re(p_, sheet.zf) +
                          q_[2] * (sheet.delta * re(difference_, sheet.zf) + X);
     const double w = at.w2 * at.w2;

@@ -51,13 +51,9 @@ class CoordinateEquation {
 
   Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double rho) const {
     const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
-    const double terms[7] = {rho * sheet.zr.x * yr,
-                             rho * sheet.zf.x * yp,
-                             -rho * p_.x * yr,
-                             rho * difference_.x * sheet.delta,
-                             y_[2] * n3 * sheet.zr.x,
-                             -y_[2] * n3 * p_.x,
-                             -y_[2] * sheet.zf.y};
+    const double terms[7] = {
+        rho * sheet.zr.x * yr,   rho * sheet.zf.x * yp, -rho * p_.x * yr,   rho * difference_.x * sheet.delta,
+        y_[2] * n3 * sheet.zr.x, -y_[2] * n3 * p_.x,    -y_[2] * sheet.zf.y};
     Residual result{0, 0};
     for (double term : terms) result.value += term, result.magnitude += std::abs(term);
     return result;

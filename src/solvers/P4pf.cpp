@@ -41,8 +41,8 @@ class NormalEquation {
   double norm(const Sheets& at, const Sheet<Complex>& sheet) const {
     // n3 delta K modulo W(eta), without the division by S
     const Planar<Complex> y = (at.c * frame_.A21 + at.s * (frame_.p3 - frame_.A11)) + sheet.eta * frame_.D2;
-    const Complex X = (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) + k2_ * re(sheet.zr, y)) *
-                      (-1 / triangle_);
+    const Complex X =
+        (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) + k2_ * re(sheet.zr, y)) * (-1 / triangle_);
     return squaredNorm(at.w2 * (linearPart(at, sheet) - sheet.delta * re(difference_, sheet.zf) - X));
   }
 

@@ -13,7 +13,8 @@ constexpr double kCoincident = 1e-9;
 static double distance(const ImagePoint& a, const ImagePoint& b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
 bool ThreePointFrame::set(const PointMatch& m1, const PointMatch& m2, const PointMatch& m3, double otherImage) {
-  imageUnit = std::max({otherImage, std::abs(m1.u), std::abs(m1.v), std::abs(m2.u), std::abs(m2.v), std::abs(m3.u), std::abs(m3.v)});
+  imageUnit =
+      std::max({otherImage, std::abs(m1.u), std::abs(m1.v), std::abs(m2.u), std::abs(m2.v), std::abs(m3.u), std::abs(m3.v)});
   const Eigen::Vector3d edge = m2.point - m1.point, side = m1.point - m3.point;
   lengthUnit = edge.norm();
   const double sideLength = side.norm();

@@ -28,8 +28,8 @@ using math::ImagePoint;
 
 struct ThreePointFrame {
   Eigen::Vector3d e1, e2, e3;
-  Eigen::Vector3d x3;                 // in the rig's frame and unit
-  double imageUnit, lengthUnit;       // one unit here in the caller's units
+  Eigen::Vector3d x3;            // in the rig's frame and unit
+  double imageUnit, lengthUnit;  // one unit here in the caller's units
   double a1, b1, h;
   ImagePoint p1, p2, p3;
   ImagePoint A11, A21, D1, D2;
@@ -40,8 +40,8 @@ struct ThreePointFrame {
   Eigen::Vector3d fromX3(const Eigen::Vector3d& point) const { return direction((point - x3) / lengthUnit); }
   ImagePoint image(double u, double v) const { return {u / imageUnit, v / imageUnit}; }
 
-  // False for degenerate data: coincident or collinear points, coincident image points. `otherImage` is the largest absolute image
-  // coordinate of the problem's other correspondences.
+  // False for degenerate data: coincident or collinear points, coincident image points. `otherImage` is the largest absolute
+  // image coordinate of the problem's other correspondences.
   bool set(const PointMatch& m1, const PointMatch& m2, const PointMatch& m3, double otherImage);
 };
 

@@ -1,8 +1,8 @@
 // Poses with unknown focal length that see three given points and satisfy one equation more: H13f, P3.5Pf and P4Pf.
 //
-// On the four sheets over the circle of angles phi (ThreePointSheets.hpp) the additional equation is eliminated to one binary form
-// p(cos phi, sin phi), the product of its values on the sheets. Each real root of p is lifted to the sheet where the equation
-// holds and refined there.
+// On the four sheets over the circle of angles phi (ThreePointSheets.hpp) the additional equation is eliminated to one binary
+// form p(cos phi, sin phi), the product of its values on the sheets. Each real root of p is lifted to the sheet where the
+// equation holds and refined there.
 #pragma once
 
 #include "math/BinaryFormRoots.hpp"
@@ -110,7 +110,7 @@ class ThreePointSolver {
     const double rank = equation_.rank(pose);
     if (!(rank >= 0)) return;
     for (int i = 0; i < count_; ++i)
-      if ((found_[i].r3 - pose.r3).lpNorm<1>() < 1e-7 && std::abs(found_[i].f / pose.f - 1) < 1e-7) return;
+      if ((found_[i].r3 - pose.r3).cwiseAbs().sum() < 1e-7 && std::abs(found_[i].f / pose.f - 1) < 1e-7) return;
     if (count_ == Equation::kDegree) return;
     int place = count_++;
     for (; place > 0 && ranks_[place - 1] > rank; --place) {

@@ -1,0 +1,116 @@
+// How reliably every minimal solver finds the truth of noiseless problems, and whether all it returns is right.
+//
+//   solver_accuracy [--count N] [--seed S] [--solver NAME] [--awkward]
+//
+// One row per solver (with --awkward: per solver and awkward case): the share of problems whose truth is recovered to 1e-6
+// (rotation and relative focal length), the share of failures (nearest solution off by more than 1e-3), median and 99 % quantile
+// of log10 of the error, mean number of solutions, solutions that violate their equations by more than 1e-5 px, solutions
+// returned twice, and the mean time in microseconds (problems are not repeated, so caches are cold).
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "AwkwardProblems.hpp"
+#include "MinimalProblem.hpp"
+#include "solvers/solvers.hpp"
+
+namespace {
+
+using namespace hybridgv;
+using namespace hybridgv::test;
+
+struct Row {
+  std::string name;
+  solvers::SolveFunction solve;
+  std::size_t exactPoints;  // points whose reprojection error must vanish
+  std::function<MinimalProblem(Random&)> makeProblem;
+};
+
+std::vector<Row> rows(bool awkward) {
+  const struct {
+    const char* name;
+    solvers::SolveFunction solve;
+    std::vector<int> raysPerCamera;
+    int points;
+    std::size_t exactPoints;
+  } solvers[] = {{"p4pf", &solvers::p4pf, {}, 4, 3},
+                 {"p35pf", &solvers::p35pf, {}, 4, 3},
+                 {"h13f", &solvers::h13f, {1}, 3, 3},
+                 {"h51f [5]", &solvers::h51f, {5}, 1, 1}};
+  std::vector<Row> rows;
+  for (const auto& solver : solvers) {
+    if (!awkward) {
+      rows.push_back({solver.name, solver.solve, solver.exactPoints,
+                      [=](Random& random) { return makeMinimalProblem(random, solver.raysPerCamera, solver.points); }});
+      continue;
+    }
+    if (solver.points < 3) continue;
+    for (const AwkwardCase& c : awkwardCases())
+      if (!c.needsRay || !solver.raysPerCamera.empty())
+        rows.push_back({std::string(solver.name) + ", " + c.name, solver.solve, solver.exactPoints,
+                        [=](Random& random) { return makeAwkwardProblem(random, c, solver.raysPerCamera, solver.points); }});
+  }
+  return rows;
+}
+
+void measure(const Row& row, int count, std::uint64_t seed) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> logErrors;
+  std::size_t solutions = 0, wrong = 0, duplicates = 0;
+  int recovered = 0, failures = 0;
+  double seconds = 0;
+  for (int i = 0; i < count; ++i) {
+    Random random(seed, static_cast<std::uint64_t>(i));
+    const MinimalProblem problem = row.makeProblem(random);
+    FocalPoses poses(solvers::kMaxSolutions);
+    const Clock::time_point start = Clock::now();
+    const int found = row.solve(problem.rays.data(), problem.points.data(), poses.data());
+    seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    poses.resize(static_cast<std::size_t>(found));
+    solutions += poses.size();
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      wrong += !(largestResidual(problem, poses[k], row.exactPoints) < 1e-5);
+      for (std::size_t j = 0; j < k; ++j) duplicates += poseDistance(poses[k], poses[j]) < 1e-7;
+    }
+    const double error = distanceToNearest(poses, problem.truth);
+    recovered += error < 1e-6, failures += !(error < 1e-3);
+    logErrors.push_back(std::log10(std::max(error, 1e-16)));
+  }
+  std::sort(logErrors.begin(), logErrors.end());
+  const auto quantile = [&](double q) { return logErrors[static_cast<std::size_t>(q * (count - 1))]; };
+  std::printf("| %-44s | %7d | %8.4f | %7.4f | %6.2f | %6.2f | %5.2f | %5zu | %5zu | %7.2f |\n", row.name.c_str(), count,
+              100.0 * recovered / count, 100.0 * failures / count, quantile(0.5), quantile(0.99),
+              static_cast<double>(solutions) / count, wrong, duplicates, 1e6 * seconds / count);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int count = 10000;
+  std::uint64_t seed = 1;
+  std::string solver;
+  bool awkward = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--count") == 0 && i + 1 < argc) {
+      count = std::max(1, std::atoi(argv[++i]));
+    } else if (std::strcmp(argv[i], "--seed") == 0 && i + 1 < argc) {
+      seed = std::strtoull(argv[++i], nullptr, 10);
+    } else if (std::strcmp(argv[i], "--solver") == 0 && i + 1 < argc) {
+      solver = argv[++i];
+    } else if (std::strcmp(argv[i], "--awkward") == 0) {
+      awkward = true;
+    } else {
+      return std::fprintf(stderr, "usage: %s [--count N] [--seed S] [--solver NAME] [--awkward]\n", argv[0]), 2;
+    }
+  }
+  std::printf("| %-44s | %7s | %8s | %7s | %6s | %6s | %5s | %5s | %5s | %7s |\n", "solver", "count", "found %", "fail %",
+              "median", "99 %", "sol.", "wrong", "twice", "us");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Row& row : rows(awkward))
+    if (row.name.compare(0, solver.size(), solver) == 0) measure(row, count, seed);
+}
