@@ -1,5 +1,7 @@
 #include "CheckArguments.hpp"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -7,6 +9,19 @@ namespace hybridgv {
 
 void throwInvalid(const std::string& argument, const std::string& reason) {
   throw std::invalid_argument("hybridgv: " + argument + ": " + reason);
+}
+
+static void checkAllDifferent(const std::string& name, const std::vector<int>& indices, int needed) {
+  const auto end = indices.begin() + needed;
+  if (needed <= 8) {  // a minimal sample: no allocation
+    for (auto i = indices.begin(); i != end; ++i)
+      if (std::find(indices.begin(), i, *i) != i) throwInvalid(name, "index " + std::to_string(*i) + " is repeated");
+    return;
+  }
+  std::vector<int> sorted(indices.begin(), end);
+  std::sort(sorted.begin(), sorted.end());
+  const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
+  if (repeated != sorted.end()) throwInvalid(name, "index " + std::to_string(*repeated) + " is repeated");
 }
 
 void checkIndices(const std::string& name, const std::vector<int>& indices, int needed, std::size_t available) {
@@ -17,9 +32,8 @@ void checkIndices(const std::string& name, const std::vector<int>& indices, int 
     if (index < 0 || static_cast<std::size_t>(index) >= available)
       throwInvalid(name, "index " + std::to_string(index) + " is outside the " + std::to_string(available) +
                              " correspondences of the adapter");
-    for (int j = 0; j < i; ++j)
-      if (indices[static_cast<std::size_t>(j)] == index) throwInvalid(name, "index " + std::to_string(index) + " is repeated");
   }
+  checkAllDifferent(name, indices, needed);
 }
 
 void checkMultiIndices(const std::string& name, const std::vector<std::vector<int>>& indices, int rays, int points,
@@ -27,6 +41,15 @@ void checkMultiIndices(const std::string& name, const std::vector<std::vector<in
   if (indices.size() != 2) throwInvalid(name, "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
   checkIndices(name + "[0] (2D-2D)", indices[0], rays, adapter.getNumberCorrespondences2d2d());
   checkIndices(name + "[1] (2D-3D)", indices[1], points, adapter.getNumberCorrespondences2d3d());
+}
+
+void checkPose(const std::string& name, const FocalPose& pose) {
+  constexpr double kTolerance = 1e-6;  // admits rotations that were written with seven digits
+  if (!pose.rotation.allFinite() || !pose.position.allFinite()) throwInvalid(name, "not finite");
+  const double error = (pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kTolerance) || pose.rotation.determinant() < 0) throwInvalid(name, "its rotation is not a rotation matrix");
+  if (!(pose.focalLength > 0) || !std::isfinite(pose.focalLength))
+    throwInvalid(name, "its focal length must be positive and finite, is " + std::to_string(pose.focalLength));
 }
 
 static void checkFinite(const char* what, int index, const Eigen::Vector3d& value) {

@@ -19,6 +19,9 @@ void checkIndices(const std::string& name, const std::vector<int>& indices, int 
 void checkMultiIndices(const std::string& name, const std::vector<std::vector<int>>& indices, int rays, int points,
                        const hybrid_pose::HybridAdapterBase& adapter);
 
+// Throws unless the pose is finite with a rotation matrix and a positive focal length.
+void checkPose(const std::string& name, const FocalPose& pose);
+
 // A correspondence of the adapter as plain data; throws unless it is finite, with a ray of non-zero length.
 solvers::RayMatch readRay(const hybrid_pose::HybridAdapterBase& adapter, int index);
 solvers::PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index);

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <cmath>
 #include <string>
 
@@ -10,17 +9,6 @@ namespace sac {
 
 static void require(bool holds, const char* name, double value, const char* expected) {
   if (!holds) throwInvalid(std::string("options.") + name, "must be " + std::string(expected) + ", is " + std::to_string(value));
-}
-
-static void checkInitialPose(const FocalPose& pose) {
-  constexpr double kTolerance = 1e-6;  // admits rotations that were written with seven digits
-  const char* name = "options.initialPose";
-  if (!pose.rotation.allFinite() || !pose.position.allFinite()) throwInvalid(name, "not finite");
-  const double error = (pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kTolerance) || pose.rotation.col(0).cross(pose.rotation.col(1)).dot(pose.rotation.col(2)) < 0)
-    throwInvalid(name, "its rotation is not a rotation matrix");
-  if (!(pose.focalLength > 0) || !std::isfinite(pose.focalLength))
-    throwInvalid(name, "its focal length must be positive and finite, is " + std::to_string(pose.focalLength));
 }
 
 void HybridRansacOptions::check() const {
@@ -38,7 +26,7 @@ void HybridRansacOptions::check() const {
   for (const SolverPrior& entry : solvers)
     require(positiveFinite(entry.prior), ("solvers[" + std::string(hybridgv::toString(entry.solver)) + "].prior").c_str(),
             entry.prior, "positive and finite");
-  if (initialPose) checkInitialPose(*initialPose);
+  if (initialPose) checkPose("options.initialPose", *initialPose);
 }
 
 const char* toString(FailureReason reason) {

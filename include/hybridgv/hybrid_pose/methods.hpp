@@ -54,16 +54,32 @@ struct HYBRIDGV_EXPORT NonlinearResult {
   FocalPose pose;
   bool converged = false;
   int iterations = 0;
-  double cost = 0;  ///< sum of the squared residuals at the result [px^2]
-  /// J^T J at the result, 7x7 row-major [1/px^2]: small rotation in the query's frame [rad], position, log focal length.
+  double cost = 0;  ///< sum of the squared residuals at the result [px^2]; infinite where the start has none
+  /// J^T J at the result, 7x7 row-major [px^2 per product of the parameters' units]: small rotation in the query's frame
+  /// (rotation * exp([.]x)) [rad], position, log focal length.
   std::array<double, 49> information{};
-  /// Standard deviation of the focal length for residuals of 1 px standard deviation; infinite if the data do not fix it.
+  /// Standard deviation of the focal length [px] for residuals of 1 px standard deviation; infinite if the data do not fix it.
   double focalLengthStandardDeviation = 0;
 };
 
-/// Minimises reprojection errors (2D-3D) and Sampson errors (2D-2D), both in pixels.
+/// Levenberg-Marquardt on rotation, position and log focal length: a local minimum of
+///
+///     sum over 2D-3D | f (x/z, y/z) - (u, v) |^2  +  sum over 2D-2D (Sampson error)^2     [px^2]
+///
+/// (see residuals.hpp; the rays of a 2D-2D correspondence need not meet in front of the cameras here), with exact derivatives.
+/// There is no robust loss: give inliers only, or call sac::hybridRansac.
+///
+/// \param indices  {2D-2D, 2D-3D} correspondences to use, any number
+/// \param initial  where to start
+/// \return never worse than the start. Degenerate data give the start itself with converged = false: fewer than seven equations
+///         (two per 2D-3D and one per 2D-2D correspondence), data that do not fix all seven parameters at the start (such as rays
+///         from one centre only), a point that is not in front of the query at the start.
+/// \throws std::invalid_argument for indices out of range or repeated, data or a start that are not finite
+///
+/// Cost: about 5 to 10 iterations of 20 to 60 ns per correspondence, by the processor's instruction set.
 HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
                                                    const FocalPose& initial);
+/// The same over all correspondences of the adapter.
 HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial);
 
 }  // namespace hybrid_pose

@@ -1,0 +1,63 @@
+#include <cmath>
+#include <limits>
+
+#include "CheckArguments.hpp"
+#include "hybridgv/hybrid_pose/methods.hpp"
+#include "robust/LeastSquares.hpp"
+
+namespace hybridgv {
+namespace hybrid_pose {
+
+using robust::kParameters;
+
+static bool isDetermined(const robust::LeastSquaresProblem& problem, const FocalPose& pose) {
+  robust::Matrix7 covariance;
+  return 2 * problem.points.size + problem.rays.size >= kParameters &&
+         robust::invertInformation(robust::information(problem, pose), covariance);
+}
+
+// From the normalized frame to the rig's, where positions are `unit` times larger.
+static void setInformation(const robust::Matrix7& normalized, double unit, NonlinearResult& result) {
+  Eigen::Matrix<double, kParameters, 1> scale = Eigen::Matrix<double, kParameters, 1>::Ones();
+  scale.segment<3>(3).setConstant(1 / unit);
+  const robust::Matrix7 information = scale.asDiagonal() * normalized * scale.asDiagonal();
+  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters, Eigen::RowMajor>>(result.information.data()) = information;
+  robust::Matrix7 covariance;
+  result.focalLengthStandardDeviation = robust::invertInformation(information, covariance)
+                                            ? result.pose.focalLength * std::sqrt(covariance(6, 6))
+                                            : std::numeric_limits<double>::infinity();
+}
+
+NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
+                                   const FocalPose& initial) {
+  if (indices.size() != 2) throwInvalid("indices", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
+  checkMultiIndices("indices", indices, static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size()), adapter);
+  checkPose("initial", initial);
+
+  const robust::HybridArrays arrays(adapter, indices[0], indices[1]);
+  const robust::LeastSquaresProblem problem = robust::makeProblem(arrays, {}, {});
+  const robust::Normalization& normalization = arrays.normalization();
+  const FocalPose start = normalization.apply(initial);
+
+  robust::LeastSquaresOptions options;
+  if (!isDetermined(problem, start)) options.maxIterations = 0;
+  const robust::LeastSquaresResult minimum = robust::minimize(problem, start, options);
+
+  NonlinearResult result;
+  result.pose = minimum.iterations > 0 ? normalization.undo(minimum.pose) : initial;
+  result.converged = minimum.converged;
+  result.iterations = minimum.iterations;
+  result.cost = minimum.cost;
+  setInformation(minimum.information, normalization.unit, result);
+  return result;
+}
+
+NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial) {
+  return optimize_nonlinear(
+      adapter,
+      {robust::allIndices(adapter.getNumberCorrespondences2d2d()), robust::allIndices(adapter.getNumberCorrespondences2d3d())},
+      initial);
+}
+
+}  // namespace hybrid_pose
+}  // namespace hybridgv

@@ -1,0 +1,57 @@
+// The correspondences as the robust estimation holds them: copied once from the adapter, centred and scaled, one array per
+// quantity.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+#include "hybridgv/types.hpp"
+#include "robust/kernels/Kernels.hpp"
+#include "solvers/MinimalSolver.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+// The rig's frame, moved and scaled so that coordinates are of the order of 1: x' = (x - centre) / unit.
+struct Normalization {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double unit = 1;
+
+  Eigen::Vector3d apply(const Eigen::Vector3d& x) const { return (x - centre) / unit; }
+  FocalPose apply(FocalPose pose) const { return pose.position = apply(pose.position), pose; }
+  FocalPose undo(FocalPose pose) const { return pose.position = centre + unit * pose.position, pose; }
+};
+
+class HybridArrays {
+ public:
+  // Reads the correspondences indices2d2d and indices2d3d, in this order.
+  // Throws std::invalid_argument for data that are not finite.
+  HybridArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
+               const std::vector<int>& indices2d3d);
+
+  const Normalization& normalization() const { return normalization_; }
+  // Element i is correspondence indices2d2d[i] (indices2d3d[i]), normalized.
+  const std::vector<solvers::RayMatch>& rays() const { return rays_; }
+  const std::vector<solvers::PointMatch>& points() const { return points_; }
+  RayArrays rayArrays() const;
+  PointArrays pointArrays() const;
+
+ private:
+  void normalize();
+  void fillRayColumns(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d);
+  void fillPointColumns();
+
+  Normalization normalization_;
+  std::vector<solvers::RayMatch> rays_;
+  std::vector<solvers::PointMatch> points_;
+  std::vector<double> rayColumns_, pointColumns_;
+};
+
+// 0, 1, .., count-1
+std::vector<int> allIndices(std::size_t count);
+
+PlainPose toPlain(const FocalPose& pose);
+
+}  // namespace robust
+}  // namespace hybridgv

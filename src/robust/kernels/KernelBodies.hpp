@@ -1,0 +1,336 @@
+// The kernels, for vectors of HYBRIDGV_LANES doubles. Included by one file per instruction set, each compiled for its own;
+// everything has internal linkage so that no version can replace another.
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "robust/kernels/Kernels.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+using Real = double __attribute__((vector_size(HYBRIDGV_LANES * sizeof(double))));
+using Mask = long long __attribute__((vector_size(HYBRIDGV_LANES * sizeof(double))));  // -1 or 0
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline Real load(const double* from) {
+  Real value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+inline Real all(double value) { return value - Real{}; }
+inline Real where(Mask mask, Real value, Real otherwise) { return mask ? value : otherwise; }
+
+template <class Function>
+inline Real mapLanes(Real value, Function function) {
+  for (int i = 0; i < HYBRIDGV_LANES; ++i) value[i] = function(value[i]);
+  return value;
+}
+inline double sum(Real value) {
+  double result = 0;
+  for (int i = 0; i < HYBRIDGV_LANES; ++i) result += value[i];
+  return result;
+}
+inline int count(Mask negated) {
+  long long result = 0;
+  for (int i = 0; i < HYBRIDGV_LANES; ++i) result -= negated[i];
+  return static_cast<int>(result);
+}
+
+struct Vec {
+  Real x, y, z;
+};
+inline Vec all(const double* v) { return {all(v[0]), all(v[1]), all(v[2])}; }
+inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec operator*(Real s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Real dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec cross(const Vec& a, const Vec& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+struct Pose {
+  explicit Pose(const PlainPose& pose)
+      : r1(all(pose.r1)),
+        r2(all(pose.r2)),
+        r3(all(pose.r3)),
+        position(all(pose.position)),
+        positionInQuery(toQuery(position)),
+        f(all(pose.focalLength)) {}
+  Vec toQuery(const Vec& v) const { return {dot(r1, v), dot(r2, v), dot(r3, v)}; }
+  Vec r1, r2, r3;       // columns of the rotation R
+  Vec position;         // p
+  Vec positionInQuery;  // R^T p
+  Real f;
+};
+
+// Calls body(i, mask) for i = begin, begin + HYBRIDGV_LANES, .. below end; the mask tells which lanes are below it.
+template <class Body>
+inline void forRange(std::size_t begin, std::size_t end, Body body) {
+  const Mask full = Mask{} == Mask{};
+  std::size_t i = begin;
+  for (; i + HYBRIDGV_LANES <= end; i += HYBRIDGV_LANES) body(i, full);
+  if (i == end) return;
+  Mask rest = full;
+  for (int lane = 0; lane < HYBRIDGV_LANES; ++lane)
+    if (i + static_cast<std::size_t>(lane) >= end) rest[lane] = 0;
+  body(i, rest);
+}
+
+// ---- 2D-3D: e = f (x/z, y/z) - (u, v), (x, y, z) = R^T X - R^T p ----
+
+struct Reprojection {
+  Reprojection(const PointArrays& points, std::size_t i, const Pose& pose) {
+    const Vec point{load(points.x + i), load(points.y + i), load(points.z + i)};
+    inQuery = pose.toQuery(point) - pose.positionInQuery;
+    inFront = inQuery.z > 0;
+    project(points, i, pose);
+  }
+  void project(const PointArrays& points, std::size_t i, const Pose& pose) {
+    scale = pose.f / inQuery.z;
+    projectedU = scale * inQuery.x, projectedV = scale * inQuery.y;
+    errorU = projectedU - load(points.u + i), errorV = projectedV - load(points.v + i);
+    squaredError = errorU * errorU + errorV * errorV;
+  }
+
+  Vec inQuery;
+  Mask inFront;
+  Real scale, projectedU, projectedV, errorU, errorV, squaredError;
+};
+
+// ---- 2D-2D: e = C / sqrt(G), see sampsonError ----
+
+struct Epipolar {
+  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Real inverseSquaredFocal) {
+    direction = {load(rays.dx + i), load(rays.dy + i), load(rays.dz + i)};
+    imageNormal = {load(rays.ax + i), load(rays.ay + i), load(rays.az + i)};
+    const Vec centre{load(rays.cx + i), load(rays.cy + i), load(rays.cz + i)};
+    image = {load(rays.u + i), load(rays.v + i), pose.f};
+    w = image.x * pose.r1 + image.y * pose.r2 + image.z * pose.r3;
+    t = centre - pose.position;
+    l = cross(t, direction);
+    n = cross(w, t);
+    s = cross(w, direction);
+    squaredPixelOfQuery = load(rays.isUnknown + i) * inverseSquaredFocal;
+    squaredPixel = load(rays.squaredPixel + i) + squaredPixelOfQuery;
+    l1 = dot(pose.r1, l), l2 = dot(pose.r2, l);
+    alongNormal = dot(imageNormal, n);
+    constraint = dot(w, l);
+    varianceInMap = dot(n, n) - alongNormal * alongNormal;
+    variance = l1 * l1 + l2 * l2 + squaredPixel * varianceInMap;
+  }
+  // The depths alpha = l.s / s.s and beta = -n.s / s.s are positive.
+  Mask inFront() const { return (dot(l, s) > 0) & (dot(n, s) < 0); }
+  Real squaredError() const { return constraint * constraint / variance; }
+
+  Vec direction, imageNormal, image, w, t, l, n, s;
+  Real squaredPixel, squaredPixelOfQuery, l1, l2, alongNormal, varianceInMap;
+  Real constraint, variance;  // C, G
+};
+
+inline Real inverseSquare(Real value) { return 1.0 / (value * value); }
+
+// ---- errors and scores ----
+
+void squaredPointErrors(const PointArrays& points, const PlainPose& plainPose, double* errors) {
+  const Pose pose(plainPose);
+  for (std::size_t i = 0; i < points.size; i += HYBRIDGV_LANES) {
+    const Reprojection point(points, i, pose);
+    const Mask valid = point.inFront & (point.squaredError < kInfinity);
+    const Real squared = where(valid, point.squaredError, all(kInfinity));
+    std::memcpy(errors + i, &squared, sizeof squared);
+  }
+}
+
+void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
+  const Pose pose(plainPose);
+  const Real inverseSquaredFocal = inverseSquare(pose.f);
+  for (std::size_t i = 0; i < rays.size; i += HYBRIDGV_LANES) {
+    const Epipolar ray(rays, i, pose, inverseSquaredFocal);
+    const Real error = ray.squaredError();
+    const Real squared = where(ray.inFront() & (error < kInfinity), error, all(kInfinity));
+    std::memcpy(errors + i, &squared, sizeof squared);
+  }
+}
+
+// Sums up what is below the threshold; comparisons with NaN are false.
+class ScoreSum {
+ public:
+  explicit ScoreSum(double squaredThreshold) : threshold_(all(squaredThreshold)), perSquare_(all(1 / squaredThreshold)) {}
+  void add(Mask valid, Real squaredError) {
+    const Mask inlier = valid & (squaredError < threshold_);
+    gain_ += where(inlier, 1.0 - squaredError * perSquare_, Real{});
+    negatedInliers_ += inlier;
+  }
+  Score score() const { return {sum(gain_), count(negatedInliers_)}; }
+
+ private:
+  Real threshold_, perSquare_, gain_{};
+  Mask negatedInliers_{};
+};
+
+Score scorePoints(const PointArrays& points, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
+                  std::size_t end) {
+  const Pose pose(plainPose);
+  ScoreSum result(squaredThreshold);
+  forRange(begin, end, [&](std::size_t i, Mask inRange) {
+    const Reprojection point(points, i, pose);
+    result.add(point.inFront & inRange, point.squaredError);
+  });
+  return result.score();
+}
+
+Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double squaredThreshold, std::size_t begin, std::size_t end) {
+  const Pose pose(plainPose);
+  const Real inverseSquaredFocal = inverseSquare(pose.f);
+  ScoreSum result(squaredThreshold);
+  forRange(begin, end, [&](std::size_t i, Mask inRange) {
+    const Epipolar ray(rays, i, pose, inverseSquaredFocal);
+    result.add(ray.inFront() & inRange, ray.squaredError());
+  });
+  return result.score();
+}
+
+// ---- normal equations ----
+
+using Row = Real[kParameters];
+
+class NormalEquationsSum {
+ public:
+  explicit NormalEquationsSum(const TypeLoss& loss) : loss_(loss) {}
+
+  // What the correspondences cost, and the weights of their squared errors. Those that are not valid have weight 0.
+  Real weigh(Mask inRange, Mask valid, Real squaredError) {
+    const double scale2 = loss_.scale * loss_.scale;
+    const Real x = where(valid, squaredError / scale2, all(kInfinity));
+    const Real rho = where(inRange, this->rho(x), Real{});
+    cost_ += loss_.precision * scale2 * rho;
+    return where(inRange & valid, loss_.precision * weight(x), Real{});
+  }
+  void add(const Row& derivatives, Real error, Real weight) {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      const Real weighted = weight * derivatives[row];
+      gradient_[row] += weighted * error;
+      for (int column = row; column < kParameters; ++column, ++k) hessian_[k] += weighted * derivatives[column];
+    }
+  }
+  // Two errors with the same weight.
+  void add(const Row& derivatives, Real error, const Row& derivatives2, Real error2, Real weight) {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      const Real weighted = weight * derivatives[row], weighted2 = weight * derivatives2[row];
+      gradient_[row] += weighted * error + weighted2 * error2;
+      for (int column = row; column < kParameters; ++column, ++k)
+        hessian_[k] += weighted * derivatives[column] + weighted2 * derivatives2[column];
+    }
+  }
+  void addTo(NormalEquations& total) const {
+    total.cost += sum(cost_);
+    for (int i = 0; i < kParameters; ++i) total.gradient[i] += sum(gradient_[i]);
+    for (int i = 0; i < kTriangle; ++i) total.hessian[i] += sum(hessian_[i]);
+  }
+
+ private:
+  Real rho(Real x) const {
+    switch (loss_.loss) {
+      case Loss::Truncated:
+        return where(x < 1.0, x, all(1));
+      case Loss::Cauchy:
+        return mapLanes(x, [](double value) { return std::log1p(value); });
+      case Loss::Quadratic:
+        break;
+    }
+    return x;
+  }
+  Real weight(Real x) const {
+    switch (loss_.loss) {
+      case Loss::Truncated:
+        return where(x < 1.0, all(1), Real{});
+      case Loss::Cauchy:
+        return 1.0 / (1.0 + x);
+      case Loss::Quadratic:
+        break;
+    }
+    return all(1);
+  }
+
+  TypeLoss loss_;
+  Real cost_{}, gradient_[kParameters] = {}, hessian_[kTriangle] = {};
+};
+
+void addPoints(const PointArrays& points, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
+  const Pose pose(plainPose);
+  NormalEquationsSum sums(loss);
+  forRange(0, points.size, [&](std::size_t i, Mask inRange) {
+    Reprojection point(points, i, pose);
+    const Mask valid = point.inFront & (point.squaredError < kInfinity);
+    const Real weight = sums.weigh(inRange, valid, point.squaredError);
+    // Where there is no projection, any finite derivative will do.
+    Vec& y = point.inQuery;
+    y = {where(valid, y.x, Real{}), where(valid, y.y, Real{}), where(valid, y.z, all(1))};
+    point.project(points, i, pose);
+    // dy = y x rotation - R^T dposition, du = scale (dy_x - (y_x / y_z) dy_z), likewise v.
+    const Real slopeU = y.x / y.z, slopeV = y.y / y.z;
+    const Vec uByPosition = point.scale * (slopeU * pose.r3 - pose.r1), vByPosition = point.scale * (slopeV * pose.r3 - pose.r2);
+    const Row du = {point.projectedU * slopeV,
+                    -pose.f - point.projectedU * slopeU,
+                    pose.f * slopeV,
+                    uByPosition.x,
+                    uByPosition.y,
+                    uByPosition.z,
+                    point.projectedU};
+    const Row dv = {pose.f + point.projectedV * slopeV,
+                    -point.projectedV * slopeU,
+                    -pose.f * slopeU,
+                    vByPosition.x,
+                    vByPosition.y,
+                    vByPosition.z,
+                    point.projectedV};
+    sums.add(du, point.errorU, dv, point.errorV, weight);
+  });
+  sums.addTo(total);
+}
+
+// The error e = C G^(-1/2) has the derivative G^(-1/2) (dC - C/G dG/2). Summed is G (de)^2 with the weight divided by G, which
+// needs no square root. With q = (u, v, f), m the part of n in the map's image plane, all vectors in the rig's frame but for the
+// rotation:
+//   dC   = (q x R^T l) . rotation + s . dposition + f (r3.l) dlogf
+//   dG/2 = (r3.l) (l2, -l1, 0) . rotation + R^T (w x (t x m)) h . rotation
+//        + ((l1 r1 + l2 r2) x D + h w x m) . dposition + (h f r3 . (t x m) - hq m.n) dlogf
+// where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
+void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
+  const Pose pose(plainPose);
+  const Real inverseSquaredFocal = inverseSquare(pose.f);
+  NormalEquationsSum sums(loss);
+  forRange(0, rays.size, [&](std::size_t i, Mask inRange) {
+    const Epipolar ray(rays, i, pose, inverseSquaredFocal);
+    const Real squaredError = ray.squaredError();
+    Mask valid = (ray.variance > 0) & (squaredError < kInfinity);
+    if (loss.loss != Loss::Quadratic) valid &= ray.inFront();
+    const Real weight = sums.weigh(inRange, valid, squaredError);
+
+    const Real variance = where(valid, ray.variance, all(1));
+    const Real l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
+    const Vec m = ray.n - ray.alongNormal * ray.imageNormal;
+    const Vec tm = cross(ray.t, m);
+    const Vec constraintByRotation = cross(ray.image, Vec{ray.l1, ray.l2, l3});
+    const Vec mapByRotation = h * pose.toQuery(cross(ray.w, tm));
+    const Vec varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
+    const Real varianceByFocal = h * pose.f * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
+    const Real ratio = ray.constraint / variance;
+    const Row derivatives = {constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x),
+                             constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1),
+                             constraintByRotation.z - ratio * mapByRotation.z,
+                             ray.s.x - ratio * varianceByPosition.x,
+                             ray.s.y - ratio * varianceByPosition.y,
+                             ray.s.z - ratio * varianceByPosition.z,
+                             pose.f * l3 - ratio * varianceByFocal};
+    sums.add(derivatives, ray.constraint, weight / variance);
+  });
+  sums.addTo(total);
+}
+
+constexpr Kernels kTable = {squaredPointErrors, squaredRayErrors, scorePoints, scoreRays, addPoints, addRays};
+
+}  // namespace
+}  // namespace robust
+}  // namespace hybridgv

@@ -1,0 +1,86 @@
+// The loops over all correspondences: errors of a pose, its score, its normal equations. Plain data only, no Eigen type: these
+// functions exist once per instruction set and are chosen at run time.
+#pragma once
+
+#include <cstddef>
+
+#include "math/SimdLevel.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+// Arrays are padded to a multiple of this many entries, with entries that have an infinite error.
+constexpr std::size_t kPadding = 8;
+
+// A pose as the kernels read it: the columns r1, r2, r3 of the rotation (query -> rig), the position, the focal length.
+struct PlainPose {
+  double r1[3], r2[3], r3[3];
+  double position[3];
+  double focalLength;
+};
+
+// 2D-3D correspondences: image point (u, v), rig point (x, y, z).
+struct PointArrays {
+  std::size_t size = 0;  // without the padding
+  const double *u, *v, *x, *y, *z;
+};
+
+// 2D-2D correspondences: image point (u, v), centre c of the rig camera, direction d and image normal a (EpipolarRay). The square
+// of the map image's pixel is squaredPixel (1/g^2) where g is known; otherwise that is 0 and isUnknown is 1, not 0.
+struct RayArrays {
+  std::size_t size = 0;
+  const double *u, *v, *cx, *cy, *cz, *dx, *dy, *dz, *ax, *ay, *az, *squaredPixel, *isUnknown;
+};
+
+struct Score {
+  double msac = 0;  // sum of max(0, 1 - (error / threshold)^2)
+  int inliers = 0;  // number of errors below the threshold
+};
+
+// With x = (error / scale)^2, a correspondence costs scale^2 rho(x):
+enum class Loss {
+  Quadratic,  // rho = x; rays are not required to meet in front of the cameras
+  Truncated,  // rho = min(x, 1)
+  Cauchy,     // rho = log(1 + x)
+};
+
+// How one type of correspondence enters a robust least-squares problem: the sum of precision * scale^2 rho(x) is minimised.
+struct TypeLoss {
+  Loss loss = Loss::Quadratic;
+  double scale = 1;      // [px]
+  double precision = 1;  // [1/px^2]
+};
+
+// The parameters are a small rotation in the query's frame (R -> R exp([.]x)), the position and log f. For residuals e with
+// derivatives J and weights W (precision times the derivative of rho), these are the sums J^T W J and J^T W e.
+constexpr int kParameters = 7;
+constexpr int kTriangle = kParameters * (kParameters + 1) / 2;
+struct NormalEquations {
+  double cost = 0;
+  double gradient[kParameters] = {};
+  double hessian[kTriangle] = {};  // upper triangle, row by row
+};
+
+// One instruction set's versions. Ranges [begin, end) begin at a multiple of kPadding and end at one or at the arrays' size.
+struct Kernels {
+  // Squared errors; infinite as reprojectionError and sampsonError are. `errors` has room for the padding.
+  void (*squaredPointErrors)(const PointArrays&, const PlainPose&, double* errors);
+  void (*squaredRayErrors)(const RayArrays&, const PlainPose&, double* errors);
+  Score (*scorePoints)(const PointArrays&, const PlainPose&, double squaredThreshold, std::size_t begin, std::size_t end);
+  Score (*scoreRays)(const RayArrays&, const PlainPose&, double squaredThreshold, std::size_t begin, std::size_t end);
+  // Add to the sums. A point that is not in front of the query costs rho(infinity), as does a ray but for Loss::Quadratic.
+  void (*addPoints)(const PointArrays&, const PlainPose&, const TypeLoss&, NormalEquations&);
+  void (*addRays)(const RayArrays&, const PlainPose&, const TypeLoss&, NormalEquations&);
+};
+
+extern const Kernels kKernelsSse2;
+extern const Kernels kKernelsAvx2;
+extern const Kernels kKernelsAvx512;
+
+// `level` must be supported by the processor.
+const Kernels& kernels(math::SimdLevel level);
+// The best ones (see simdLevel).
+const Kernels& kernels();
+
+}  // namespace robust
+}  // namespace hybridgv
