@@ -33,12 +33,6 @@ inline double sum(Real value) {
   for (int i = 0; i < HYBRIDGV_LANES; ++i) result += value[i];
   return result;
 }
-inline int count(Mask negated) {
-  long long result = 0;
-  for (int i = 0; i < HYBRIDGV_LANES; ++i) result -= negated[i];
-  return static_cast<int>(result);
-}
-
 struct Vec {
   Real x, y, z;
 };
@@ -160,13 +154,12 @@ class ScoreSum {
   void add(Mask valid, Real squaredError) {
     const Mask inlier = valid & (squaredError < threshold_);
     gain_ += where(inlier, 1.0 - squaredError * perSquare_, Real{});
-    negatedInliers_ += inlier;
+    inliers_ += where(inlier, all(1), Real{});
   }
-  Score score() const { return {sum(gain_), count(negatedInliers_)}; }
+  Score score() const { return {sum(gain_), static_cast<int>(sum(inliers_))}; }
 
  private:
-  Real threshold_, perSquare_, gain_{};
-  Mask negatedInliers_{};
+  Real threshold_, perSquare_, gain_{}, inliers_{};
 };
 
 Score scorePoints(const PointArrays& points, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
