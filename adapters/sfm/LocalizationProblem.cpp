@@ -43,6 +43,13 @@ void checkOptions(const LocalizationProblemOptions& options) {
   check("options.maxMapReprojectionErrorPx", options.maxMapReprojectionErrorPx);
 }
 
+// An image that sees a point twice counts with the observation that the track names first.
+bool isFirstOfTrack(const Point& point, std::size_t image, std::size_t observation) {
+  const auto sees = [&](const TrackElement& e) { return e.image == image; };
+  const auto first = std::find_if(point.track.begin(), point.track.end(), sees);
+  return first != point.track.end() && first->observation == observation;
+}
+
 // What the images other than the query see of the point: one view per image, in the order of the track.
 struct MapViews {
   std::vector<View> views;
@@ -54,9 +61,8 @@ MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t q
   for (const TrackElement& e : model.points[pointIndex].track) {
     if (e.image >= model.images.size() || e.observation >= model.images[e.image].observations.size())
       throwInvalid(element("points", pointIndex), "the track names an observation that does not exist");
-    const bool seen = std::find(result.images.begin(), result.images.end(), e.image) != result.images.end();
     const Image& image = model.images[e.image];
-    if (e.image == query || !image.registered || seen) continue;
+    if (e.image == query || !image.registered || !isFirstOfTrack(model.points[pointIndex], e.image, e.observation)) continue;
     const Camera& camera = cameraOf(model, e.image);
     const Observation& o = image.observations[e.observation];
     if (const std::optional<Eigen::Vector3d> point = undistort(camera, o.x, o.y)) {
@@ -70,13 +76,14 @@ MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t q
 Matches findMatches(const SparseModel& model, std::size_t query, const LocalizationProblemOptions& options) {
   const Camera& camera = cameraOf(model, query);
   const double minParallax = options.minParallaxDeg * std::acos(-1.0) / 180;
-  std::vector<std::size_t> seen;
   Matches matches;
-  for (const Observation& o : model.images[query].observations) {
+  const std::vector<Observation>& observations = model.images[query].observations;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const Observation& o = observations[i];
     if (o.point == Observation::kNoPoint) continue;
     if (o.point >= model.points.size()) throwInvalid(element("images", query), "there is no point " + std::to_string(o.point));
     const std::optional<Eigen::Vector3d> imagePoint = undistort(camera, o.x, o.y);
-    if (!imagePoint) continue;
+    if (!imagePoint || !isFirstOfTrack(model.points[o.point], query, i)) continue;
     const MapViews map = viewsOf(model, o.point, query);
     if (map.views.empty()) continue;
     if (map.views.size() >= 2 && largestParallax(map.views) >= minParallax) {

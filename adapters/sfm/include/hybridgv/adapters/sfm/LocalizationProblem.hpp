@@ -18,9 +18,11 @@ namespace sfm {
 
 /// How makeLocalizationProblem turns tracks into correspondences.
 struct LocalizationProblemOptions {
-  /// A point becomes a 2D-3D correspondence only if the viewing rays of two map images meet in it at this angle or a larger one.
+  /// A point becomes a 2D-3D correspondence only if the viewing rays of two map images meet in it at this angle or a larger one;
+  /// below, its depth is uncertain.
   double minParallaxDeg = 2;
-  /// ... and if it projects to within this distance of what every map image has observed.
+  /// ... and only if it projects to within this distance of what every map image has observed [px of the undistorted map image].
+  /// The default is several times the noise of features, so that it rejects mismatches only.
   double maxMapReprojectionErrorPx = 4;
 };
 
@@ -42,9 +44,13 @@ struct LocalizationProblem {
 ///
 /// The query's observations are taken out of every track. A track that one map image still sees gives a 2D-2D correspondence: the
 /// query's image point and that image's viewing ray. A track that two or more still see is triangulated again, without the query
-/// (least squares over their reprojection errors), and gives a 2D-3D correspondence. Where their rays meet at a small angle, the
-/// point is uncertain in depth and gives a 2D-2D correspondence with one of them instead; so it does where the triangulated point
-/// does not fit the observations.
+/// (least squares over their reprojection errors), and gives a 2D-3D correspondence. If no two of its rays meet at a sufficient
+/// angle, or if the point lies behind an image or does not fit its observations, the track gives a 2D-2D correspondence with the
+/// first of its images instead: it still restrains the query in one direction, and a robust estimator drops it if it is a
+/// mismatch. An image that a track names twice counts with the first of its two observations.
+///
+/// The choice depends on the map images alone: moving an observation of the query changes that image point of the problem and
+/// nothing else.
 ///
 /// Image points are in pixels of the query, undistorted and relative to its principal point (see undistort()); observations
 /// outside the invertible range of the distortion are left out. The rig's frame is the model's. Rig focal lengths are set.
