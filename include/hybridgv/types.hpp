@@ -35,6 +35,7 @@ struct FocalPose {
   }
 };
 
+/// Solutions of a minimal problem, in no particular order unless the solver says so.
 using FocalPoses = std::vector<FocalPose>;
 
 // Whatever instruction set a program is compiled for, it must see the same layout as the library.

@@ -25,6 +25,7 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
  public:
   virtual ~HybridAdapterBase();
 
+  /// Number of 2D-2D correspondences.
   virtual std::size_t getNumberCorrespondences2d2d() const = 0;
   /// Image point (u, v, 1) of 2D-2D correspondence `index` in the query.
   virtual Eigen::Vector3d getImagePoint2d2d(std::size_t index) const = 0;
@@ -42,6 +43,7 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
   /// Quality of 2D-2D correspondence `index`, larger is better (the default is 1 for all). Only the order matters.
   virtual double getWeight2d2d(std::size_t index) const;
 
+  /// Number of 2D-3D correspondences.
   virtual std::size_t getNumberCorrespondences2d3d() const = 0;
   /// Image point (u, v, 1) of 2D-3D correspondence `index` in the query.
   virtual Eigen::Vector3d getImagePoint2d3d(std::size_t index) const = 0;

@@ -13,8 +13,8 @@ namespace hybridgv {
 /// The counterpart of OpenGV's Noncentral*Adapter. Unlike them it **copies** its data: the vectors may be temporaries.
 class HYBRIDGV_EXPORT NoncentralHybridAdapter : public hybrid_pose::HybridAdapterBase {
  public:
-  using Vectors = std::vector<Eigen::Vector3d>;
-  using Matrices = std::vector<Eigen::Matrix3d>;
+  using Vectors = std::vector<Eigen::Vector3d>;   ///< image points, directions, centres, points
+  using Matrices = std::vector<Eigen::Matrix3d>;  ///< rotations
 
   /// \param imagePoints2d2d  query image points (u, v, 1) of the 2D-2D correspondences: pixels relative to the principal point,
   ///                         lens distortion removed
