@@ -20,6 +20,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/hybridgvConfigVersion.cma
 install(FILES ${PROJECT_BINARY_DIR}/hybridgvConfig.cmake ${PROJECT_BINARY_DIR}/hybridgvConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake DESTINATION ${package_dir})
 configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake ${PROJECT_BINARY_DIR}/hybridgvOpenGV.cmake COPYONLY)
+# The installed package can be moved: its prefix is found from the place of its .pc file.
+string(REGEX REPLACE "[^/]+" ".." prefix_from_pc ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgv.pc.in ${PROJECT_BINARY_DIR}/hybridgv.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/hybridgv.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md

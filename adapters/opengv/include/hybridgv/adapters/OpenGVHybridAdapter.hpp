@@ -1,0 +1,143 @@
+/// \file
+/// \brief Hybrid correspondences read from OpenGV's own adapters.
+#pragma once
+
+#include <cmath>
+#include <opengv/absolute_pose/AbsoluteAdapterBase.hpp>
+#include <opengv/relative_pose/RelativeAdapterBase.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+
+namespace hybridgv {
+
+/// Presents a relative-pose adapter (the 2D-2D correspondences), an absolute-pose adapter (the 2D-3D correspondences), or both,
+/// of OpenGV as one hybrid adapter.
+///
+/// * Relative: viewpoint 1 is the rig, viewpoint 2 is the query.
+/// * Absolute: its bearing vectors are the query's, its world frame is the rig's frame (viewpoint 1 of the relative adapter).
+///
+/// OpenGV's adapters hold bearing vectors of the query, which somebody formed with a nominal focal length f0. The image points
+/// are
+///
+///     (u, v) = f0 * (bx / bz, by / bz),
+///
+/// and the focal length that is found has the unit of f0: if f0 is in pixels, pixels; if f0 = 1 (bearing vectors of normalised
+/// coordinates), it is the factor by which the nominal focal length was wrong, and the thresholds are in that unit too.
+///
+/// The query is one pinhole camera in the origin of its viewpoint: getCamOffset2 and getCamRotation2, and the absolute adapter's
+/// getCamOffset and getCamRotation, must be zero and identity. (NoncentralRelativeAdapter has one list of cameras for both
+/// viewpoints: append a camera with zero offset and identity rotation for the query.) Correspondences with equal getCamOffset1
+/// and getCamRotation1 belong to one rig camera; getCamIndex numbers these in the order of their first appearance.
+///
+/// **Lifetime**: OpenGV's adapters are referred to, as everywhere in OpenGV, and must outlive this one (temporaries do not
+/// compile). They are only read, and must keep their number of correspondences and their cameras.
+class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
+ public:
+  using RelativeAdapter = opengv::relative_pose::RelativeAdapterBase;
+  using AbsoluteAdapter = opengv::absolute_pose::AbsoluteAdapterBase;
+
+  /// \param relative  2D-2D correspondences
+  /// \param absolute  2D-3D correspondences
+  /// \param nominalFocalLength  f0, the focal length with which the query's bearing vectors were formed, > 0
+  ///
+  /// \throws std::invalid_argument that names the correspondence, for a query bearing vector that is not finite or does not point
+  ///         into the half space in front of the camera (bz <= 0: such a direction has no image point), a query camera that is
+  ///         not in the origin of its viewpoint, or a nominal focal length that is not positive and finite.
+  OpenGVHybridAdapter(const RelativeAdapter& relative, const AbsoluteAdapter& absolute, double nominalFocalLength = 1)
+      : OpenGVHybridAdapter(&relative, &absolute, nominalFocalLength) {}
+  /// 2D-2D correspondences only.
+  explicit OpenGVHybridAdapter(const RelativeAdapter& relative, double nominalFocalLength = 1)
+      : OpenGVHybridAdapter(&relative, nullptr, nominalFocalLength) {}
+  /// 2D-3D correspondences only.
+  explicit OpenGVHybridAdapter(const AbsoluteAdapter& absolute, double nominalFocalLength = 1)
+      : OpenGVHybridAdapter(nullptr, &absolute, nominalFocalLength) {}
+
+  OpenGVHybridAdapter(const RelativeAdapter&&, const AbsoluteAdapter&, double = 1) = delete;
+  OpenGVHybridAdapter(const RelativeAdapter&, const AbsoluteAdapter&&, double = 1) = delete;
+  OpenGVHybridAdapter(const RelativeAdapter&&, const AbsoluteAdapter&&, double = 1) = delete;
+  explicit OpenGVHybridAdapter(const RelativeAdapter&&, double = 1) = delete;
+  explicit OpenGVHybridAdapter(const AbsoluteAdapter&&, double = 1) = delete;
+
+  std::size_t getNumberCorrespondences2d2d() const override { return camIndices_.size(); }
+  Eigen::Vector3d getImagePoint2d2d(std::size_t index) const override { return imagePoint(relative_->getBearingVector2(index)); }
+  Eigen::Vector3d getBearingVector(std::size_t index) const override { return relative_->getBearingVector1(index); }
+  int getCamIndex(std::size_t index) const override { return camIndices_[index]; }
+  Eigen::Vector3d getCamOffset(std::size_t index) const override { return relative_->getCamOffset1(index); }
+  Eigen::Matrix3d getCamRotation(std::size_t index) const override { return relative_->getCamRotation1(index); }
+  double getWeight2d2d(std::size_t index) const override { return relative_->getWeight(index); }
+
+  std::size_t getNumberCorrespondences2d3d() const override { return absolute_ ? absolute_->getNumberCorrespondences() : 0; }
+  Eigen::Vector3d getImagePoint2d3d(std::size_t index) const override { return imagePoint(absolute_->getBearingVector(index)); }
+  Eigen::Vector3d getPoint(std::size_t index) const override { return absolute_->getPoint(index); }
+  double getWeight2d3d(std::size_t index) const override { return absolute_->getWeight(index); }
+
+ private:
+  OpenGVHybridAdapter(const RelativeAdapter* relative, const AbsoluteAdapter* absolute, double nominalFocalLength)
+      : relative_(relative), absolute_(absolute), nominalFocalLength_(nominalFocalLength) {
+    if (!(nominalFocalLength > 0) || !std::isfinite(nominalFocalLength))
+      throwInvalid("nominalFocalLength", "must be positive and finite, is " + std::to_string(nominalFocalLength));
+    if (relative_) readRelative();
+    if (absolute_) checkAbsolute();
+  }
+
+  void readRelative() {
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Matrix3d>> cameras;
+    const std::size_t count = relative_->getNumberCorrespondences();
+    camIndices_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      checkQueryBearing("relative.getBearingVector2", i, relative_->getBearingVector2(i));
+      checkQueryCamera("relative.getCamOffset2", "relative.getCamRotation2", i, relative_->getCamOffset2(i),
+                       relative_->getCamRotation2(i));
+      const std::pair<Eigen::Vector3d, Eigen::Matrix3d> camera(relative_->getCamOffset1(i), relative_->getCamRotation1(i));
+      std::size_t index = 0;
+      while (index < cameras.size() && cameras[index] != camera) ++index;
+      if (index == cameras.size()) cameras.push_back(camera);
+      camIndices_.push_back(static_cast<int>(index));
+    }
+  }
+
+  void checkAbsolute() const {
+    for (std::size_t i = 0; i < absolute_->getNumberCorrespondences(); ++i) {
+      checkQueryBearing("absolute.getBearingVector", i, absolute_->getBearingVector(i));
+      checkQueryCamera("absolute.getCamOffset", "absolute.getCamRotation", i, absolute_->getCamOffset(i),
+                       absolute_->getCamRotation(i));
+    }
+  }
+
+  static void checkQueryBearing(const char* name, std::size_t index, const Eigen::Vector3d& bearing) {
+    if (!bearing.allFinite() || !(bearing[2] > 0))
+      throwInvalid(element(name, index), "must be finite and point forward (z > 0), is (" + std::to_string(bearing[0]) + ", " +
+                                             std::to_string(bearing[1]) + ", " + std::to_string(bearing[2]) + ")");
+  }
+
+  static void checkQueryCamera(const char* offsetName, const char* rotationName, std::size_t index, const Eigen::Vector3d& offset,
+                               const Eigen::Matrix3d& rotation) {
+    constexpr double kTolerance = 1e-12;
+    const char* reason = "the query camera must be in the origin of its viewpoint (zero offset, identity rotation)";
+    if (!offset.isZero(kTolerance)) throwInvalid(element(offsetName, index), reason);
+    if (!rotation.isIdentity(kTolerance)) throwInvalid(element(rotationName, index), reason);
+  }
+
+  static std::string element(const char* name, std::size_t index) {
+    return std::string(name) + "(" + std::to_string(index) + ")";
+  }
+
+  [[noreturn]] static void throwInvalid(const std::string& argument, const std::string& reason) {
+    throw std::invalid_argument("hybridgv::OpenGVHybridAdapter: " + argument + ": " + reason);
+  }
+
+  Eigen::Vector3d imagePoint(const Eigen::Vector3d& bearing) const {
+    return {nominalFocalLength_ * bearing[0] / bearing[2], nominalFocalLength_ * bearing[1] / bearing[2], 1};
+  }
+
+  const RelativeAdapter* relative_;
+  const AbsoluteAdapter* absolute_;
+  double nominalFocalLength_;
+  std::vector<int> camIndices_;
+};
+
+}  // namespace hybridgv

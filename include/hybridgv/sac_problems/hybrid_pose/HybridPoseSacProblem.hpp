@@ -1,0 +1,117 @@
+/// \file
+/// \brief Hybrid pose with unknown focal length as a problem for opengv::sac::Ransac and opengv::sac::Lmeds.
+#pragma once
+
+// OpenGV's sac headers do not include all they need: <algorithm>, <climits>, <cmath>, <limits> and Eigen must come first.
+#include <Eigen/Core>
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <opengv/sac/SampleConsensusProblem.hpp>
+#include <vector>
+
+#include "hybridgv/sac_problems/hybrid_pose/HybridProblemCore.hpp"
+
+namespace hybridgv {
+namespace sac_problems {
+namespace hybrid_pose {
+
+/// One flat list of indices: 0 .. n2d2d-1 are the 2D-2D correspondences of the adapter, the 2D-3D ones follow.
+///
+///     opengv::sac::Ransac<HybridPoseSacProblem> ransac;
+///     ransac.sac_model_ = std::make_shared<HybridPoseSacProblem>(adapter, Solver::H13f, 4.0, 2.0);
+///     ransac.threshold_ = 1.0;
+///     if (ransac.computeModel())  // ransac.model_coefficients_ is a FocalPose, ransac.inliers_ are flat indices
+///       ransac.sac_model_->optimizeModelCoefficients(ransac.inliers_, ransac.model_coefficients_, refined);
+///
+/// * **Thresholds** are in pixels of the query image, one for each type. The distance that OpenGV sees is the error divided by
+/// its
+///   threshold, so `threshold_` is always 1.0 (OpenGV's default). It is always finite.
+/// * **Samples** are minimal: m 2D-2D and n 2D-3D correspondences, every such set equally likely, and no further correspondence
+/// to
+///   choose among several solutions. OpenGV wants one model for a sample: it gets the solution that explains the whole index list
+///   best. That costs one pass over the correspondences for each solution (a hopeless one is left early), the loop's own count
+///   is one more.
+/// * **H51f** draws its five rays from one rig camera where one has five (see setRaysFromOneCamera).
+/// * **Seed**: the same seed gives the same result on every platform. All random numbers come from OpenGV's rnd(), which this
+/// class
+///   sets up.
+/// * **Data**: the adapter is only read, once, in the constructor, and may be destroyed afterwards. Several problems may share
+/// one.
+///
+/// What the loops themselves do and a problem cannot change: they know one pooled inlier share, so that their number of
+/// iterations is right only if both types have similar shares (too small if the type that the solver needs more of is the worse
+/// one: raise `probability_`); Ransac runs max_iterations_ + 1 iterations; samples without a solution are not counted but limited
+/// to 10 max_iterations_, which must stay below 2^31; Lmeds minimises the median over both types together, so more than half of
+/// all correspondences must be inliers; a second call of computeModel on the same loop object that finds nothing leaves the first
+/// one's model there.
+class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPose> {
+ public:
+  using model_t = FocalPose;
+  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;
+
+  /// \param adapter  the correspondences
+  /// \param solver  the minimal solver
+  /// \param maxReprojectionErrorPx  largest reprojection error of an inlier among the 2D-3D correspondences [px]
+  /// \param maxEpipolarErrorPx  largest Sampson error of an inlier among the 2D-2D correspondences [px]
+  /// \param seed  of everything random
+  ///
+  /// \throws std::invalid_argument for fewer correspondences than the solver needs, thresholds that are not positive and finite,
+  ///         correspondences that are not finite.
+  HybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
+                       std::uint64_t seed = 0)
+      : SampleConsensusProblem(false),
+        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx),
+        raysFromOneCamera_(solver == Solver::H51f) {
+    rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
+    setUniformIndices(core_.size()[0] + core_.size()[1]);
+  }
+
+  /// Whether the 2D-2D correspondences of a sample come from one rig camera (the default for H51f, where it is several hundred
+  /// times faster: 9 instead of 56 solutions) or from any (the default for the others). Where no rig camera has enough, they come
+  /// from any in either case.
+  void setRaysFromOneCamera(bool oneCamera) { raysFromOneCamera_ = oneCamera; }
+
+  /// The size of a sample: m + n.
+  int getSampleSize() const override { return core_.sampleSize()[0] + core_.sampleSize()[1]; }
+
+  /// Draws m 2D-2D and n 2D-3D correspondences of the list set by setIndices. A degenerate sample is drawn again, up to
+  /// max_sample_checks_ times; the last one is returned in any case, and computeModelCoefficients then finds no model for it.
+  /// Empty, which ends the loop, if the list has too few of one type.
+  void getSamples(int& /*iterations*/, std::vector<int>& samples) override {
+    const MultiIndices pool = core_.split(*indices_);
+    for (int check = 0; check == 0 || check < max_sample_checks_; ++check) {
+      samples = core_.join(core_.drawSample(pool, raysFromOneCamera_, *rng_gen_));
+      if (samples.empty() || isSampleGood(samples)) return;
+    }
+  }
+
+  /// See HybridProblemCore::isSampleGood.
+  bool isSampleGood(const std::vector<int>& sample) const override { return core_.isSampleGood(core_.split(sample)); }
+
+  bool computeModelCoefficients(const std::vector<int>& indices, model_t& outModel) const override {
+    return core_.computeModel(core_.split(indices), core_.split(*indices_), outModel);
+  }
+
+  void getSelectedDistancesToModel(const model_t& model, const std::vector<int>& indices,
+                                   std::vector<double>& scores) const override {
+    core_.distances(model, indices, scores);
+  }
+
+  /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.
+  void optimizeModelCoefficients(const std::vector<int>& inliers, const model_t& model, model_t& optimizedModel) override {
+    optimizedModel = core_.optimize(core_.split(inliers), model);
+  }
+
+ private:
+  HybridProblemCore core_;
+  bool raysFromOneCamera_;
+};
+
+}  // namespace hybrid_pose
+}  // namespace sac_problems
+}  // namespace hybridgv

@@ -1,0 +1,79 @@
+/// \file
+/// \brief What the hybrid problems for OpenGV's sample-consensus loops have in common, in the compiled library.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hybridgv/export.hpp"
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+#include "hybridgv/types.hpp"
+
+namespace hybridgv {
+namespace sac_problems {
+namespace hybrid_pose {
+
+/// {2D-2D, 2D-3D}
+using MultiIndices = std::vector<std::vector<int>>;
+
+/// The mathematics behind HybridPoseSacProblem and MultiHybridPoseSacProblem, which are thin and header-only because OpenGV's
+/// base classes are templates that belong to the user's program. Use it directly only to write another loop.
+///
+/// All functions are const and may be called from several threads at once. Copies share the (constant) data.
+class HYBRIDGV_EXPORT HybridProblemCore {
+ public:
+  /// Copies the adapter's correspondences; it is not needed afterwards.
+  ///
+  /// \throws std::invalid_argument for fewer correspondences than the solver needs, thresholds that are not positive and finite,
+  ///         correspondences that are not finite.
+  HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver, double maxReprojectionErrorPx,
+                    double maxEpipolarErrorPx);
+
+  /// Numbers of 2D-2D and 2D-3D correspondences.
+  std::array<int, 2> size() const;
+  /// How many of each the solver needs.
+  std::array<int, 2> sampleSize() const;
+
+  /// Flat indices: 0 .. n2d2d-1 are the 2D-2D correspondences, the 2D-3D ones follow. Throws std::invalid_argument for an index
+  /// that is out of range.
+  MultiIndices split(const std::vector<int>& flat) const;
+  std::vector<int> join(const MultiIndices& indices) const;
+
+  /// Draws a minimal sample from `pool` with random numbers 0 .. 2^31-1: every subset of the right mixture is equally likely.
+  /// `raysFromOneCamera`: the 2D-2D correspondences come from one rig camera, chosen with a probability proportional to its
+  /// number of matches among those that have enough; where none has, from any cameras. Empty if the pool is too small.
+  MultiIndices drawSample(const MultiIndices& pool, bool raysFromOneCamera, const std::function<int()>& random) const;
+
+  /// False for a sample that cannot fix the pose: a repeated correspondence, coincident image points, three collinear points,
+  /// coincident points, rays on one line, a ray through a point of the sample. All up to 1e-6, relative.
+  bool isSampleGood(const MultiIndices& sample) const;
+
+  /// Solves the sample and keeps that solution which explains `pool` best, by the sum of min(distance^2, 1). Returns false if
+  /// there is no solution.
+  bool computeModel(const MultiIndices& sample, const MultiIndices& pool, FocalPose& model) const;
+
+  /// Distances to the model, each an error in pixels divided by its own threshold; finite (kMaxDistance for a point behind the
+  /// camera). `flat` as in split(), the order is kept.
+  void distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const;
+  /// The same for both lists of multi-indices.
+  void distances(const FocalPose& model, const MultiIndices& indices, std::vector<std::vector<double>>& result) const;
+
+  /// hybrid_pose::optimize_nonlinear on the inliers.
+  FocalPose optimize(const MultiIndices& inliers, const FocalPose& model) const;
+
+  static constexpr double kMaxDistance = 1e6;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+/// An endless sequence of random numbers 0 .. 2^31-1 that depends on the seed alone, not on the standard library.
+HYBRIDGV_EXPORT std::function<int()> randomSequence(std::uint64_t seed);
+
+}  // namespace hybrid_pose
+}  // namespace sac_problems
+}  // namespace hybridgv

@@ -1,0 +1,24 @@
+// Random choice without replacement.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace hybridgv {
+namespace sac_problems {
+namespace hybrid_pose {
+
+// Uniform in 0 .. count-1, from uniform numbers 0 .. 2^31-1.
+std::size_t drawIndex(std::size_t count, const std::function<int()>& random);
+
+// `count` different entries of the list, every set and every order equally likely; the list has at least that many.
+std::vector<int> drawSubset(std::vector<int> list, int count, const std::function<int()>& random);
+
+// The entries of the list that belong to one camera, cameras[i] being that of entry i. The camera is chosen with a probability
+// proportional to its number of entries, among those with at least `needed`; the whole list if there is none.
+std::vector<int> drawCamera(const std::vector<int>& list, const std::vector<int>& cameras, int needed,
+                            const std::function<int()>& random);
+
+}  // namespace hybrid_pose
+}  // namespace sac_problems
+}  // namespace hybridgv
