@@ -18,15 +18,17 @@ namespace sac {
 
 /// A minimal solver that may be drawn, with the weight of its choice before anything is known about the data (> 0).
 struct SolverPrior {
-  Solver solver;
-  double prior = 1;
+  Solver solver;     ///< which
+  double prior = 1;  ///< relative to the others; only the ratios matter
 };
 
+/// What makes a pose better than another.
 enum class Scoring {
   Msac,         ///< sum over all correspondences of max(0, 1 - (error/threshold)^2)
   InlierCount,  ///< number of correspondences with error below the threshold
 };
 
+/// How samples are drawn.
 enum class Sampling {
   Uniform,         ///< every sample of a type is equally likely
   QualityOrdered,  ///< correspondences with larger weights first (PROSAC), where the adapter's weights differ; else Uniform
@@ -65,6 +67,7 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   void check() const;
 };
 
+/// Why there is no result.
 enum class FailureReason {
   None,                   ///< success
   TooFewCorrespondences,  ///< no enabled solver has enough data
@@ -73,8 +76,9 @@ enum class FailureReason {
   UndeterminedPose,       ///< the inliers do not fix all seven parameters
 };
 
+/// What ended the search.
 enum class StopReason {
-  NotStarted,
+  NotStarted,     ///< no sample was drawn
   Confident,      ///< successProbability reached
   MaxIterations,  ///< maxIterations reached
   TimeBudget,     ///< timeBudgetSeconds reached
@@ -82,18 +86,20 @@ enum class StopReason {
 
 /// "none", "too few correspondences", ...
 HYBRIDGV_EXPORT const char* toString(FailureReason reason);
+/// "not started", "confident", ...
 HYBRIDGV_EXPORT const char* toString(StopReason reason);
 
+/// What hybridRansac has found.
 struct HYBRIDGV_EXPORT HybridRansacResult {
-  bool success = false;
+  bool success = false;                                  ///< the pose can be relied on
   FailureReason failureReason = FailureReason::NoModel;  ///< None on success
 
   FocalPose pose;                 ///< also set if success is false and a model was found (see score), but not to be relied on
   std::vector<char> inliers2d2d;  ///< 1 for an inlier, one entry per 2D-2D correspondence
   std::vector<char> inliers2d3d;  ///< 1 for an inlier, one entry per 2D-3D correspondence
-  int numberInliers2d2d = 0;
-  int numberInliers2d3d = 0;
-  double score = 0;  ///< of the pose, by options.scoring; 0 without a model
+  int numberInliers2d2d = 0;      ///< of 2D-2D correspondences
+  int numberInliers2d3d = 0;      ///< of 2D-3D correspondences
+  double score = 0;               ///< of the pose, by options.scoring; 0 without a model
 
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
   /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d. All infinite if the inliers
@@ -103,12 +109,12 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   double noise2d2d = 0;  ///< [px] robust standard deviation of the inliers' Sampson errors
   double noise2d3d = 0;  ///< [px] robust standard deviation of the inliers' reprojection errors, per coordinate
 
-  std::optional<Solver> solver;  ///< whose solution led to the pose; empty if it was options.initialPose
-  int iterations = 0;            ///< samples drawn
-  std::map<Solver, int> iterationsPerSolver;
-  int localOptimizations = 0;
-  StopReason stopReason = StopReason::NotStarted;
-  double seconds = 0;
+  std::optional<Solver> solver;                    ///< whose solution led to the pose; empty if it was options.initialPose
+  int iterations = 0;                              ///< samples drawn
+  std::map<Solver, int> iterationsPerSolver;       ///< samples drawn by each
+  int localOptimizations = 0;                      ///< runs of the local optimization
+  StopReason stopReason = StopReason::NotStarted;  ///< what ended the search
+  double seconds = 0;                              ///< wall-clock time taken
 };
 
 /// Hybrid LO-RANSAC: finds the query's pose and focal length from correspondences with outliers of both types.

@@ -39,10 +39,11 @@ HYBRIDGV_EXPORT const char* toString(CameraModel model);
 
 /// The intrinsic parameters shared by one or more images.
 struct Camera {
-  std::uint32_t id = 0;  ///< the number in the file
-  CameraModel model = CameraModel::SimplePinhole;
-  std::uint64_t width = 0, height = 0;  ///< [px], 0 = unknown (Bundler, NVM)
-  std::vector<double> parameters;       ///< in the order given at CameraModel
+  std::uint32_t id = 0;                            ///< the number in the file
+  CameraModel model = CameraModel::SimplePinhole;  ///< what the parameters mean
+  std::uint64_t width = 0;                         ///< [px], 0 = unknown (Bundler, NVM)
+  std::uint64_t height = 0;                        ///< [px], likewise
+  std::vector<double> parameters;                  ///< in the order given at CameraModel
 };
 
 /// fx [px]: the focal length to which the image points of undistort() belong.

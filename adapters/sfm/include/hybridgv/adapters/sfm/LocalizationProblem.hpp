@@ -28,16 +28,18 @@ struct LocalizationProblemOptions {
 
 /// Hybrid correspondences of one query image.
 struct LocalizationProblem {
-  std::string imageName;
-  NoncentralHybridAdapter adapter;
+  std::string imageName;            ///< of the query
+  NoncentralHybridAdapter adapter;  ///< the correspondences
   /// Pose and focal length of the query according to the model; never used in making the correspondences.
   std::optional<FocalPose> reference;
   /// For every camera index of the adapter: the image of the model, SparseModel::images (empty if read from a file).
   std::vector<std::size_t> rigImages;
   /// For every correspondence: the point of the model, SparseModel::points (empty if read from a file).
-  std::vector<std::size_t> points2d2d, points2d3d;
+  std::vector<std::size_t> points2d2d;
+  std::vector<std::size_t> points2d3d;  ///< likewise
   /// For every correspondence: true if injectOutliers has given it a wrong image point.
-  std::vector<bool> isOutlier2d2d, isOutlier2d3d;
+  std::vector<bool> isOutlier2d2d;
+  std::vector<bool> isOutlier2d3d;  ///< likewise
 };
 
 /// Makes `model.images[imageIndex]` a query of unknown pose and focal length, and the other images the rig (leave-one-out).

@@ -16,44 +16,47 @@ namespace sfm {
 
 /// A feature in an image.
 struct Observation {
+  /// The feature belongs to no point.
   static constexpr std::size_t kNoPoint = static_cast<std::size_t>(-1);
 
-  double x = 0, y = 0;           ///< [px] as stored in the file, distorted
+  double x = 0;                  ///< [px] as stored in the file, distorted
+  double y = 0;                  ///< likewise
   std::size_t point = kNoPoint;  ///< index into SparseModel::points, or kNoPoint
 };
 
 /// A photo. Its pose has the meaning of FocalPose: a point X of the model is at rotation^T (X - position) in the camera's frame,
 /// whose z axis looks forward and whose y axis points down in the image. (The files store the inverse; the readers convert.)
 struct Image {
-  std::uint32_t id = 0;  ///< the number in the file
-  std::string name;
+  std::uint32_t id = 0;    ///< the number in the file
+  std::string name;        ///< as in the file
   std::size_t camera = 0;  ///< index into SparseModel::cameras
   bool registered = true;  ///< false: the file lists the photo without a pose (Bundler); it has no observations
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< camera -> model
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< centre of the camera in the model's frame
-  std::vector<Observation> observations;
+  std::vector<Observation> observations;                   ///< its features
 };
 
 /// One observation of a point: `SparseModel::images[image].observations[observation]`.
 struct TrackElement {
-  std::size_t image = 0, observation = 0;
+  std::size_t image = 0;        ///< index into SparseModel::images
+  std::size_t observation = 0;  ///< index into Image::observations
 };
 
 /// A 3D point.
 struct Point {
-  std::uint64_t id = 0;  ///< the number in the file
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  std::array<std::uint8_t, 3> colour{};  ///< red, green, blue
-  double error = -1;                     ///< mean reprojection error [px] as stored in the file, -1 = unknown
-  std::vector<TrackElement> track;       ///< who sees it; may name an image twice
+  std::uint64_t id = 0;                                ///< the number in the file
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the model's frame
+  std::array<std::uint8_t, 3> colour{};                ///< red, green, blue
+  double error = -1;                                   ///< mean reprojection error [px] as stored in the file, -1 = unknown
+  std::vector<TrackElement> track;                     ///< who sees it; may name an image twice
 };
 
 /// Indices refer to these vectors and are always valid in a model that a reader has returned, and
 /// `images[t.image].observations[t.observation].point` is the point's own index for each element t of its track.
 struct SparseModel {
-  std::vector<Camera> cameras;
-  std::vector<Image> images;
-  std::vector<Point> points;
+  std::vector<Camera> cameras;  ///< intrinsic parameters, each shared by one or more images
+  std::vector<Image> images;    ///< the photos
+  std::vector<Point> points;    ///< the 3D points
 };
 
 }  // namespace sfm
