@@ -84,7 +84,7 @@ Lines readLines(const std::string& path) {
       readPoint(in, lines);
     else
       in.fail("expected query, cam, p2 or p3, found '" + printable(kind) + "'");
-    in.endLine();
+    in.endLineOrComment();
   }
   return lines;
 }

@@ -1,5 +1,6 @@
 #include "TextScanner.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "FileContents.hpp"
@@ -92,6 +93,11 @@ bool TextScanner::lineEnds() {
 void TextScanner::endLine() {
   if (!lineEnds()) fail("'" + printable(tryWord()) + "' where the line should end");
   restOfLine();
+}
+
+void TextScanner::endLineOrComment() {
+  if (!lineEnds() && contents_[position_] == '#') position_ = std::min(contents_.find('\n', position_), contents_.size());
+  endLine();
 }
 
 }  // namespace sfm

@@ -42,6 +42,8 @@ class TextScanner {
   bool lineEnds();
   // Goes to the next line; fails if the current one has a further word.
   void endLine();
+  // The same, but a comment that starts with '#' may follow.
+  void endLineOrComment();
   // True if there is no further line, not even an empty one.
   bool atEndOfFile() const { return position_ == contents_.size(); }
 
