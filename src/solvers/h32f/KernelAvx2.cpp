@@ -1,0 +1,3 @@
+// Compiled with AVX2 and FMA.
+#define HYBRIDGV_INSTRUCTION_SET avx2
+#include "solvers/h32f/KernelBody.hpp"

@@ -1,0 +1,3 @@
+// Compiled with AVX-512 F, DQ and VL.
+#define HYBRIDGV_INSTRUCTION_SET avx512
+#include "solvers/h32f/KernelBody.hpp"
