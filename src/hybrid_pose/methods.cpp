@@ -15,6 +15,11 @@ FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<
 }
 FocalPoses h13f(const HybridAdapterBase& adapter) { return h13f(adapter, firstIndices(1, 3)); }
 
+FocalPoses h32f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
+  return solveSample(&solvers::h32f, 3, 2, 26, adapter, indices);
+}
+FocalPoses h32f(const HybridAdapterBase& adapter) { return h32f(adapter, firstIndices(3, 2)); }
+
 // Rays of different rig cameras: a wrong call as long as only configuration [5] is solved.
 static void checkOneCentre(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
   checkMultiIndices("indices", indices, 5, 1, adapter);

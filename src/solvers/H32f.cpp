@@ -1,8 +1,8 @@
 // H32f: pose and focal length from three 2D-2D and two 2D-3D correspondences, at most 26 solutions.
 //
 // With X_query = R X + t, the points X4, X5 with depths d4, d5 and the unit vector u from X5 to X4, the third row n of R gives
-// e = n.u, the hidden variable. In a frame (e1, e2, u) at X5, with |X4 - X5| as the unit of length, n = (s cos psi, s sin psi, e),
-// s^2 = w = 1 - e^2. Write image points as complex numbers p. Then
+// e = n.u, the hidden variable. In a frame (e1, e2, u) at X5, with |X4 - X5| as the unit of length, n = (s cos psi, s sin psi,
+// e), s^2 = w = 1 - e^2. Write image points as complex numbers p. Then
 //
 //     d4 = d5 + e,   l = p4 d4 - p5 d5 = f (R13 + i R23),   f = |l| / s,
 //
@@ -14,7 +14,8 @@
 // image p leaves one equation s (A cos psi + B sin psi) + K = 0,
 //
 //     al = |l|^2 - e p.l,   g = (p - p5).l,   ga = p x p5 + a e d4,   a = (p - p5) x (p4 - p5),
-//     A = m1 al + m2 p x l + d (q1 ga + q2 g),   B = m2 al - m1 p x l + d (q2 ga - q1 g),   K = m3 (e |l|^2 + w p.l) - w a q3 d d4.
+//     A = m1 al + m2 p x l + d (q1 ga + q2 g),   B = m2 al - m1 p x l + d (q2 ga - q1 g),   K = m3 (e |l|^2 + w p.l) - w a q3 d
+//     d4.
 //
 // For fixed e these are three polynomials of degree 2 in tan(psi/2) and in d/e. They have a common root where their Dixon
 // determinant (math/dixon/DixonMatrix.hpp) vanishes, a polynomial of degree 26 in e apart from constant factors.
@@ -77,9 +78,9 @@ bool normalize(const RayMatch* rays, const PointMatch* points, NormalizedProblem
   return true;
 }
 
-// The equations as polynomials in e and delta = d / e. With l = e L: L = p4 + (p4 - p5) delta.
-Forms makeForms(const NormalizedProblem& n, const Vector2d& p4) {
-  Forms f{};
+// The equations as polynomials in e and delta = d / e. With l = e L: L = p4 + (p4 - p5) delta. False if an equation vanishes, as
+// it does for a ray through X4 or X5 with the same image point.
+bool makeForms(const NormalizedProblem& n, const Vector2d& p4, Forms& f) {
   const Vector2d slope = p4 - n.p5;
   const double squaredL[3] = {p4.squaredNorm(), 2 * p4.dot(slope), slope.squaredNorm()};
   for (int j = 0; j < 3; ++j) {
@@ -88,7 +89,7 @@ Forms makeForms(const NormalizedProblem& n, const Vector2d& p4) {
     const Vector2d &p = n.p[j], difference = p - n.p5;
     const double pDotL[3] = {p.dot(p4), p.dot(slope), 0}, pCrossL[3] = {crossProduct(p, p4), crossProduct(p, slope), 0};
     const double g[3] = {0, difference.dot(p4), difference.dot(slope)};  // delta (p - p5).L
-    const double constant[3] = {0, crossProduct(p, n.p5), 0};           // delta p x p5
+    const double constant[3] = {0, crossProduct(p, n.p5), 0};            // delta p x p5
     const double a = crossProduct(difference, slope);
     const double aTimes[3] = {0, a, a};  // a delta (delta + 1)
     double sum = 0;
@@ -103,14 +104,15 @@ Forms makeForms(const NormalizedProblem& n, const Vector2d& p4) {
       f.k[b][0][j] = m[2] * pDotL[b];
       f.k[b][1][j] = -q[2] * aTimes[b];
       f.k[b][2][j] = m[2] * alpha;
-      for (int c = 0; c < 3; ++c)
-        sum += f.a[b][c][j] * f.a[b][c][j] + f.b[b][c][j] * f.b[b][c][j] + f.k[b][c][j] * f.k[b][c][j];
+      for (int c = 0; c < 3; ++c) sum += f.a[b][c][j] * f.a[b][c][j] + f.b[b][c][j] * f.b[b][c][j] + f.k[b][c][j] * f.k[b][c][j];
     }
-    const double scale = sum > 0 ? 1 / std::sqrt(sum) : 0;
+    const double rounding = 1e-13 * (1 + n.centre[j].norm() + n.origin.norm() / n.length);
+    if (!(sum > rounding * rounding)) return false;
+    const double scale = 1 / std::sqrt(sum);
     for (int b = 0; b < 3; ++b)
       for (int c = 0; c < 3; ++c) f.a[b][c][j] *= scale, f.b[b][c][j] *= scale, f.k[b][c][j] *= scale;
   }
-  return f;
+  return true;
 }
 
 // X_query = rotation X + translation in the normalised frame; f in units of the image scale.
@@ -124,7 +126,9 @@ bool makePose(const NormalizedProblem& n, double e, double cosPsi, double sinPsi
   const double d4 = d + e;
   const Vector2d l = n.p4 * d4 - n.p5 * d;
   const double length = l.norm(), s = std::sqrt((1 - e) * (1 + e));
-  if (!(d > 0) || !(d4 > 0) || !(s > 0)) return false;
+  // a query centre in one of the points makes its equation hold trivially
+  const double smallest = 1e-9 * (1 + std::abs(d));
+  if (!(d > smallest) || !(d4 > smallest) || !(s > 0)) return false;
   pose.focalLength = length / s;
   if (!(pose.focalLength > 1e-6)) return false;
   const std::complex<double> turn(cosPsi, sinPsi), along(l[0] / length, l[1] / length), i(0, 1);
@@ -137,8 +141,8 @@ bool makePose(const NormalizedProblem& n, double e, double cosPsi, double sinPsi
   return true;
 }
 
-// Does the pose satisfy the original equation of every ray, with positive depths? A query centre on a ray makes that ray's equation
-// hold trivially and is no solution: with all rays from one centre there are such poses, fixed by the two points alone.
+// Does the pose satisfy the original equation of every ray, with positive depths? A query centre on a ray makes that ray's
+// equation hold trivially and is no solution: with all rays from one centre there are such poses, fixed by the two points alone.
 bool fitsRays(const NormalizedProblem& n, const NormalizedPose& pose) {
   constexpr double kTolerance = 1e-8;  // distance from the epipolar line, in units of the image scale
   for (int j = 0; j < 3; ++j) {
@@ -205,23 +209,25 @@ Vector2d imagePointForElimination(const NormalizedProblem& n) {
 
 }  // namespace
 
-int h32f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions) {
+int hidden_variable::solve(const RayMatch* rays, const PointMatch* points, const Kernel& kernel, FocalPose* solutions) {
+  constexpr int kMaxPoses = 26;
   NormalizedProblem n;
   if (!normalize(rays, points, n)) return 0;
-  const Forms exact = makeForms(n, n.p4);
-  const Vector2d moved = imagePointForElimination(n);
-  const bool isMoved = moved != n.p4;
-  const Forms elimination = isMoved ? makeForms(n, moved) : exact;
-  const Kernel& kernel = hidden_variable::kernel();
+  Forms exact, moved;
+  if (!makeForms(n, n.p4, exact)) return 0;
+  const Vector2d p4 = imagePointForElimination(n);
+  const bool isMoved = p4 != n.p4;
+  if (isMoved && !makeForms(n, p4, moved)) return 0;
+  const Forms& elimination = isMoved ? moved : exact;
   Candidates candidates;
-  const int count = hidden_variable::hiddenRoots(elimination, kernel, candidates.e);
+  const int count = hiddenRoots(elimination, kernel, candidates.e);
   if (count == 0) return 0;
   pad(count, candidates.e);
   solveForPose(elimination, exact, kernel, count, candidates);
 
   int found = 0;
-  int accepted[kMaxSolutions];
-  for (int i = 0; i < count && found < kMaxSolutions; ++i) {
+  int accepted[kMaxPoses];
+  for (int i = 0; i < count && found < kMaxPoses; ++i) {
     NormalizedPose pose;
     if (!isConverged(candidates, i)) continue;
     if (!makePose(n, candidates.e[i], candidates.cosPsi[i], candidates.sinPsi[i], candidates.d[i], pose)) continue;
@@ -234,6 +240,10 @@ int h32f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions) {
     solution.focalLength = n.imageScale * pose.focalLength;
   }
   return found;
+}
+
+int h32f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions) {
+  return hidden_variable::solve(rays, points, hidden_variable::kernel(), solutions);
 }
 
 }  // namespace solvers

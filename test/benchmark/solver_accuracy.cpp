@@ -37,9 +37,9 @@ std::vector<Row> rows(bool awkward) {
     std::vector<int> raysPerCamera;
     int points;
     std::size_t exactPoints;
-  } solvers[] = {{"p4pf", &solvers::p4pf, {}, 4, 3},
-                 {"p35pf", &solvers::p35pf, {}, 4, 3},
-                 {"h13f", &solvers::h13f, {1}, 3, 3},
+  } solvers[] = {{"p4pf", &solvers::p4pf, {}, 4, 3},         {"p35pf", &solvers::p35pf, {}, 4, 3},
+                 {"h13f", &solvers::h13f, {1}, 3, 3},        {"h32f [1]", &solvers::h32f, {1, 1, 1}, 2, 2},
+                 {"h32f [2]", &solvers::h32f, {2, 1}, 2, 2}, {"h32f [3]", &solvers::h32f, {3}, 2, 2},
                  {"h51f [5]", &solvers::h51f, {5}, 1, 1}};
   std::vector<Row> rows;
   for (const auto& solver : solvers) {

@@ -16,6 +16,38 @@ namespace hybrid_pose {
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 
+/// H32f: pose and focal length of the query from three 2D-2D and two 2D-3D correspondences, whatever rig cameras the three
+/// viewing rays come from (configurations [1], [2], [3]).
+///
+/// Equations, for the image points (u_k, v_k) of the viewing rays c_k + beta q_k and (u_j, v_j) of the points X_j (rig frame):
+///
+///     lambda_k (u_k, v_k, f) = rotation^T (c_k + beta_k q_k - position),   lambda_k > 0, beta_k > 0,   k = 1..3,
+///     lambda_j (u_j, v_j, f) = rotation^T (X_j - position),                lambda_j > 0,               j = 1, 2.
+///
+/// \param[in] adapter Correspondences: image points in pixels relative to the principal point (any scale); rays and points in the
+///                    rig's frame and unit.
+/// \param[in] indices indices[0]: three 2D-2D correspondences, indices[1]: two 2D-3D correspondences; more are ignored. The
+///                    overload without indices takes the first three and the first two.
+/// \return At most 26 poses (2.1 on average) with positive focal length that satisfy all equations; an empty list if there is
+///         none or the data are degenerate. With all rays from one rig camera, a query at that camera's centre satisfies the
+///         equations trivially and is not returned.
+///
+/// Degenerate, nothing is returned: equal points X_j; both image points of the X_j at the principal point; rays that give fewer
+/// than three independent equations (a ray given twice with the same image point, rays through one of the X_j, rays through a
+/// common point that have one image point). Two image points of the X_j closer than about 1e-3 pixels to each other, or one that
+/// close to the principal point, are solved less reliably.
+///
+/// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite.
+///
+/// Method: the cosine e between the optical axis and the line through X_1 and X_2 is the hidden variable; the 8x8 Dixon resultant
+/// of the three ray equations has degree 26 in e. Cost: about 0.65 of opengv::absolute_pose::gp3p with SSE2, 0.4 with AVX2, 0.35
+/// with AVX-512 (chosen at run time).
+///
+/// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
+/// correspondences", WACV 2023, which poses the problem and counts its solutions.
+HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
+HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
+
 /// H51f: pose and focal length of the query from five 2D-2D correspondences and one 2D-3D correspondence.
 ///
 /// Equations, for the image points (u_k, v_k) of the viewing rays c_k + beta q_k and (u, v) of the point X (rig frame):

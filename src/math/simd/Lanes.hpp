@@ -1,11 +1,13 @@
 // Vectors of real numbers, one number per SIMD lane.
 //
-// A file that includes this header may be compiled several times, for different instruction sets. Everything in it then lives in a
-// namespace named after the set, so that the linker cannot take one version's inline function for another's. For the same reason
-// nothing here calls the standard library's templates.
+// A file that includes this header may be compiled several times, for different instruction sets. Everything in it then lives in
+// a namespace named after the set, so that the linker cannot take one version's inline function for another's. For the same
+// reason nothing here calls the standard library's templates.
 #pragma once
 
+#if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
 #ifndef HYBRIDGV_INSTRUCTION_SET
 #define HYBRIDGV_INSTRUCTION_SET baseline
@@ -78,11 +80,26 @@ HYBRIDGV_INLINE unsigned bits(FloatMask mask) { return static_cast<unsigned>(_mm
 HYBRIDGV_INLINE unsigned bits(DoubleMask mask) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask)); }
 HYBRIDGV_INLINE Floats squareRoot(Floats x) { return _mm256_sqrt_ps(x); }
 HYBRIDGV_INLINE Doubles squareRoot(Doubles x) { return _mm256_sqrt_pd(x); }
-#else
+#elif defined(__x86_64__)
 HYBRIDGV_INLINE unsigned bits(FloatMask mask) { return static_cast<unsigned>(_mm_movemask_ps((__m128)mask)); }
 HYBRIDGV_INLINE unsigned bits(DoubleMask mask) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask)); }
 HYBRIDGV_INLINE Floats squareRoot(Floats x) { return _mm_sqrt_ps(x); }
 HYBRIDGV_INLINE Doubles squareRoot(Doubles x) { return _mm_sqrt_pd(x); }
+#else
+template <class M>
+HYBRIDGV_INLINE unsigned bits(M mask) {
+  unsigned result = 0;
+  for (unsigned i = 0; i < sizeof(mask) / sizeof(mask[0]); ++i) result |= mask[i] ? 1u << i : 0u;
+  return result;
+}
+HYBRIDGV_INLINE Floats squareRoot(Floats x) {
+  for (int i = 0; i < kVectorBytes / 4; ++i) x[i] = __builtin_sqrtf(x[i]);
+  return x;
+}
+HYBRIDGV_INLINE Doubles squareRoot(Doubles x) {
+  for (int i = 0; i < kVectorBytes / 8; ++i) x[i] = __builtin_sqrt(x[i]);
+  return x;
+}
 #endif
 
 // A complex number per lane, real and imaginary parts in separate vectors.

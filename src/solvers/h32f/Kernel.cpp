@@ -2,35 +2,30 @@
 
 namespace hybridgv {
 
-namespace baseline {
+namespace sse2 {
 extern const solvers::hidden_variable::Kernel kH32fKernel;
 }
+#if defined(HYBRIDGV_X86_KERNELS)
 namespace avx2 {
 extern const solvers::hidden_variable::Kernel kH32fKernel;
 }
 namespace avx512 {
 extern const solvers::hidden_variable::Kernel kH32fKernel;
 }
+#endif
 
 namespace solvers {
 namespace hidden_variable {
 
 const Kernel& kernel(math::SimdLevel level) {
-  switch (level) {
-    case math::SimdLevel::Avx512:
-      return avx512::kH32fKernel;
-    case math::SimdLevel::Avx2:
-      return avx2::kH32fKernel;
-    case math::SimdLevel::Sse2:
-      break;
-  }
-  return baseline::kH32fKernel;
+#if defined(HYBRIDGV_X86_KERNELS)
+  if (level == math::SimdLevel::Avx512) return avx512::kH32fKernel;
+  if (level == math::SimdLevel::Avx2) return avx2::kH32fKernel;
+#endif
+  return sse2::kH32fKernel;
 }
 
-const Kernel& kernel() {
-  static const Kernel& best = kernel(math::simdLevel());
-  return best;
-}
+const Kernel& kernel() { return kernel(math::simdLevel()); }
 
 }  // namespace hidden_variable
 }  // namespace solvers

@@ -6,7 +6,14 @@
 #include "solvers/h32f/SampleTables.hpp"
 
 namespace hybridgv {
+
+struct FocalPose;
+
 namespace solvers {
+
+struct RayMatch;
+struct PointMatch;
+
 namespace hidden_variable {
 
 // Room for the samples of one call, and for the roots. All arrays are padded to a multiple of 8 entries, the widest vector; the
@@ -43,6 +50,9 @@ struct Kernel {
 const Kernel& kernel();
 // The version for one level, which the processor must support.
 const Kernel& kernel(math::SimdLevel level);
+
+// The solver h32f with a kernel of choice.
+int solve(const RayMatch* rays, const PointMatch* points, const Kernel& kernel, FocalPose* solutions);
 
 }  // namespace hidden_variable
 }  // namespace solvers

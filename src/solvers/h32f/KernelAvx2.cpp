@@ -1,3 +1,2 @@
-// Compiled with AVX2 and FMA.
 #define HYBRIDGV_INSTRUCTION_SET avx2
 #include "solvers/h32f/KernelBody.hpp"

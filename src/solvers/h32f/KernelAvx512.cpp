@@ -1,3 +1,2 @@
-// Compiled with AVX-512 F, DQ and VL.
 #define HYBRIDGV_INSTRUCTION_SET avx512
 #include "solvers/h32f/KernelBody.hpp"

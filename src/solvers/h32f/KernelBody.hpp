@@ -206,7 +206,8 @@ static void newton(const Forms& forms, int count, Candidates& candidates) {
 }
 
 extern const solvers::hidden_variable::Kernel kH32fKernel;
-const solvers::hidden_variable::Kernel kH32fKernel = {&determinants, &bernsteinCoefficients, &simpleRoots, &polishRoots, &nullVectors, &newton};
+const solvers::hidden_variable::Kernel kH32fKernel = {&determinants, &bernsteinCoefficients, &simpleRoots,
+                                                      &polishRoots,  &nullVectors,           &newton};
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace hybridgv

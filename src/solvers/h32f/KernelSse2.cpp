@@ -1,2 +1,2 @@
-#define HYBRIDGV_INSTRUCTION_SET baseline
+#define HYBRIDGV_INSTRUCTION_SET sse2
 #include "solvers/h32f/KernelBody.hpp"

@@ -28,9 +28,9 @@ struct PieceCoefficients {
 struct SampleTables {
   static const SampleTables& get();
 
-  double nodes[kSamples + 4];    // node i and its mirror image i + kHalf; padded by repetition
-  double factors[kSamples];      // y = factor * determinant
-  double noiseWeights[kHalf];    // sum_i noiseWeights[i] (y_i - y_(i+kHalf)) = 0 because R26 has degree 26, not 27; unit length
+  double nodes[kSamples + 4];  // node i and its mirror image i + kHalf; padded by repetition
+  double factors[kSamples];    // y = factor * determinant
+  double noiseWeights[kHalf];  // sum_i noiseWeights[i] (y_i - y_(i+kHalf)) = 0 because R26 has degree 26, not 27; unit length
   double breakpoints[kPieces + 1];
   // Bernstein coefficient i of piece j of the even part y(e) + y(-e) over 2: sum_k even[i][k][j] (y_k + y_(k+kHalf)); odd alike.
   double even[kDegree + 1][kHalf][kPieces], odd[kDegree + 1][kHalf][kPieces];
