@@ -1,0 +1,334 @@
+// The main job: localizes photos of unknown focal length against a map, and shows what the 2D-2D matches add.
+//
+//   localize                          the default map, each of its photos in turn as the query
+//   localize MAP [--query NAME ...]   a COLMAP folder (text or binary), a Bundler .out or an NVM file
+//   localize PROBLEM.txt ...          problems in the text format of hybridgv/adapters/sfm/LocalizationProblem.hpp
+#include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
+#include <hybridgv/adapters/sfm/ModelFiles.hpp>
+#include <hybridgv/sac/HybridRansac.hpp>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using hybridgv::FocalPose;
+using hybridgv::NoncentralHybridAdapter;
+using hybridgv::sac::HybridRansacOptions;
+using hybridgv::sac::HybridRansacResult;
+using hybridgv::sfm::LocalizationProblem;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::vector<std::string> inputs;
+  std::vector<std::string> queries;
+  std::string solver = "all";
+  hybridgv::sfm::LocalizationProblemOptions matches;
+  HybridRansacOptions ransac;
+  double outlierShare = 0;
+  bool json = false, readStandardInput = false, quiet = false;
+};
+
+// Fills `arguments`; returns the exit code if the program is to stop here (help, wrong usage), -1 otherwise.
+int parse(int argc, char** argv, Arguments& arguments) {
+  CLI::App app{
+      "Localizes photos of unknown focal length against a map, from 2D-2D and 2D-3D matches together (hybrid LO-RANSAC),\n"
+      "and compares with what the 2D-3D matches alone give on the same data (P3.5Pf). Each query is left out of the map.\n"
+      "Without an argument it runs on a small map that comes with the library.\n"};
+  app.add_option("input", arguments.inputs,
+                 "a map (COLMAP folder, text or binary; Bundler v0.3 file; NVM_V3 file), or problem files in text format");
+  app.add_option("-q,--query", arguments.queries, "names or indices of the query images (default: every image in turn)");
+  app.add_flag("--stdin", arguments.readStandardInput,
+               "read query names (if a map is given) or problem files from standard input, one a line");
+  app.add_option("-s,--solver", arguments.solver, "minimal solver: all, p4pf, p35pf, h13f, h32f or h51f")->capture_default_str();
+  app.add_option("--max-reprojection-error", arguments.ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]")
+      ->capture_default_str();
+  app.add_option("--max-epipolar-error", arguments.ransac.maxEpipolarErrorPx, "inlier threshold of 2D-2D matches, Sampson error [px]")
+      ->capture_default_str();
+  app.add_option("--min-parallax", arguments.matches.minParallaxDeg, "smaller parallax of the map's rays makes a match 2D-2D [deg]")
+      ->capture_default_str();
+  app.add_option("--outliers", arguments.outlierShare, "share of the matches to pair wrongly, 0 .. 1")->capture_default_str();
+  app.add_option("--seed", arguments.ransac.seed, "seed of everything random")->capture_default_str();
+  app.add_option("--threads", arguments.ransac.threads, "threads per query, 0 = all cores")->capture_default_str();
+  app.add_option("--max-iterations", arguments.ransac.maxIterations, "largest number of samples")->capture_default_str();
+  app.add_option("--success-probability", arguments.ransac.successProbability, "when to stop sampling")->capture_default_str();
+  app.add_flag("--json", arguments.json, "one JSON object per query and line instead of the table");
+  app.add_flag("--quiet", arguments.quiet, "no progress bar");
+  try {
+    app.parse(argc, argv);
+    if (arguments.solver != "all") arguments.ransac.solvers = {{hybridgv::solverFromString(arguments.solver), 1.0}};
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  }
+  if (arguments.inputs.empty() && !arguments.readStandardInput) arguments.inputs = {HYBRIDGV_DEFAULT_MAP};
+  return -1;
+}
+
+// ------------------------------------------------------------------------------------------------------------ what to localize
+
+// A query that is made when its turn comes.
+using Query = std::function<LocalizationProblem()>;
+
+bool isMap(const std::string& path) {
+  if (std::filesystem::is_directory(path)) return true;
+  std::string start(13, ' ');
+  std::ifstream(path, std::ios::binary).read(start.data(), 13);
+  return start.compare(0, 6, "NVM_V3") == 0 || start == "# Bundle file";
+}
+
+std::vector<std::string> readLines(std::istream& in) {
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+std::size_t findImage(const hybridgv::sfm::SparseModel& map, const std::string& name) {
+  for (std::size_t i = 0; i < map.images.size(); ++i)
+    if (map.images[i].name == name) return i;
+  std::size_t index = 0;
+  const bool isNumber = CLI::detail::lexical_cast(name, index);
+  if (isNumber && index < map.images.size()) return index;
+  throw std::invalid_argument("no image of the map is called \"" + name + "\"");
+}
+
+std::vector<Query> queriesOfMap(const std::string& path, const Arguments& arguments, const std::vector<std::string>& names) {
+  const auto map = std::make_shared<const hybridgv::sfm::SparseModel>(hybridgv::sfm::readModel(path));
+  std::vector<std::size_t> images;
+  for (const std::string& name : names) images.push_back(findImage(*map, name));
+  if (names.empty())
+    for (std::size_t i = 0; i < map->images.size(); ++i)
+      if (map->images[i].registered) images.push_back(i);
+  std::vector<Query> queries;
+  for (const std::size_t image : images)
+    queries.emplace_back([map, image, options = arguments.matches] { return makeLocalizationProblem(*map, image, options); });
+  return queries;
+}
+
+std::vector<Query> collectQueries(const Arguments& arguments) {
+  std::vector<std::string> names = arguments.queries, files;
+  bool hasMap = false;
+  for (const std::string& input : arguments.inputs) (isMap(input) ? hasMap = true, void() : files.push_back(input));
+  if (arguments.readStandardInput)
+    for (const std::string& line : readLines(std::cin)) (hasMap ? names : files).push_back(line);
+  std::vector<Query> queries;
+  for (const std::string& input : arguments.inputs)
+    if (isMap(input))
+      for (Query& query : queriesOfMap(input, arguments, names)) queries.push_back(std::move(query));
+  for (const std::string& file : files) queries.emplace_back([file] { return hybridgv::sfm::readProblem(file); });
+  return queries;
+}
+
+// ------------------------------------------------------------------------------------------------------------ localization
+
+struct PoseError {
+  double focalPercent, rotationDeg, position;
+};
+
+PoseError compare(const FocalPose& pose, const FocalPose& reference) {
+  const double sine = std::min(1.0, (pose.rotation - reference.rotation).norm() / std::sqrt(8.0));  // of half the angle
+  return {100 * (pose.focalLength / reference.focalLength - 1), 2 * std::asin(sine) * 180 / M_PI,
+          (pose.position - reference.position).norm()};
+}
+
+struct Localization {
+  HybridRansacResult result;
+  std::optional<PoseError> error;  // if the query has a reference and a pose was found
+};
+
+Localization localize(const NoncentralHybridAdapter& adapter, const std::optional<FocalPose>& reference,
+                      const HybridRansacOptions& options) {
+  Localization localization{hybridRansac(adapter, options), {}};
+  if (reference && localization.result.success) localization.error = compare(localization.result.pose, *reference);
+  return localization;
+}
+
+NoncentralHybridAdapter pointsOnly(const NoncentralHybridAdapter& adapter) {
+  std::vector<Eigen::Vector3d> imagePoints, points;
+  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d3d(); ++i) {
+    imagePoints.push_back(adapter.getImagePoint2d3d(i));
+    points.push_back(adapter.getPoint(i));
+  }
+  return {{}, {}, {}, {}, {}, imagePoints, points};
+}
+
+struct Row {
+  LocalizationProblem problem;
+  Localization hybrid, pointsOnly;
+};
+
+Row localizeBothWays(LocalizationProblem problem, const Arguments& arguments) {
+  if (arguments.outlierShare > 0) problem = injectOutliers(problem, arguments.outlierShare, arguments.ransac.seed);
+  HybridRansacOptions p35pf = arguments.ransac;
+  p35pf.solvers = {{hybridgv::Solver::P35Pf, 1.0}};
+  const Localization hybrid = localize(problem.adapter, problem.reference, arguments.ransac);
+  const Localization reference = localize(pointsOnly(problem.adapter), problem.reference, p35pf);
+  return {std::move(problem), hybrid, reference};
+}
+
+// ------------------------------------------------------------------------------------------------------------ output
+
+void printHeader() {
+  std::printf("%-24s %8s | %8s %7s %7s %7s %8s %9s %9s %7s | %-40s\n", "", "", "hybrid", "", "", "", "", "inliers", "inliers", "",
+              "2D-3D matches only (P3.5Pf)");
+  std::printf("%-24s %8s | %8s %7s %7s %7s %8s %9s %9s %7s | %8s %7s %7s %8s %7s\n", "query", "f ref px", "f px", "+- px", "df %",
+              "dR deg", "dpos", "2D-2D", "2D-3D", "ms", "f px", "df %", "dR deg", "dpos", "ms");
+}
+
+std::string share(int inliers, std::size_t all) { return std::to_string(inliers) + "/" + std::to_string(all); }
+
+void printErrors(const std::optional<PoseError>& error) {
+  if (error)
+    std::printf(" %7.2f %7.3f %8.4f", error->focalPercent, error->rotationDeg, error->position);
+  else
+    std::printf(" %7s %7s %8s", "-", "-", "-");
+}
+
+void printFocalLength(const HybridRansacResult& result) {
+  if (result.success)
+    std::printf(" %8.1f", result.pose.focalLength);
+  else
+    std::printf(" %8s", "failed");
+}
+
+void printRow(const Row& row) {
+  const HybridRansacResult& hybrid = row.hybrid.result;
+  const NoncentralHybridAdapter& adapter = row.problem.adapter;
+  std::printf("%-24s", row.problem.imageName.c_str());
+  if (row.problem.reference)
+    std::printf(" %8.1f |", row.problem.reference->focalLength);
+  else
+    std::printf(" %8s |", "-");
+  printFocalLength(hybrid);
+  std::printf(" %7.1f", hybrid.focalLengthStandardDeviation);
+  printErrors(row.hybrid.error);
+  std::printf(" %9s %9s %7.2f |", share(hybrid.numberInliers2d2d, adapter.getNumberCorrespondences2d2d()).c_str(),
+              share(hybrid.numberInliers2d3d, adapter.getNumberCorrespondences2d3d()).c_str(), 1e3 * hybrid.seconds);
+  printFocalLength(row.pointsOnly.result);
+  printErrors(row.pointsOnly.error);
+  std::printf(" %7.2f\n", 1e3 * row.pointsOnly.result.seconds);
+}
+
+Json toJson(const Localization& localization) {
+  const HybridRansacResult& result = localization.result;
+  Json json{{"success", result.success}};
+  if (!result.success) json["failure_reason"] = toString(result.failureReason);
+  if (result.success) {
+    const FocalPose& pose = result.pose;
+    json["focal_length_px"] = pose.focalLength;
+    json["focal_length_std_px"] = result.focalLengthStandardDeviation;
+    json["rotation_query_to_rig"] = std::vector<double>(pose.rotation.data(), pose.rotation.data() + 9);  // column by column
+    json["position"] = std::vector<double>(pose.position.data(), pose.position.data() + 3);
+  }
+  json["inliers_2d2d"] = result.numberInliers2d2d;
+  json["inliers_2d3d"] = result.numberInliers2d3d;
+  json["iterations"] = result.iterations;
+  if (localization.error) {
+    json["focal_error_percent"] = localization.error->focalPercent;
+    json["rotation_error_deg"] = localization.error->rotationDeg;
+    json["position_error"] = localization.error->position;
+  }
+  json["seconds"] = result.seconds;
+  return json;
+}
+
+void printJson(const Row& row) {
+  Json json{{"query", row.problem.imageName},
+            {"matches_2d2d", row.problem.adapter.getNumberCorrespondences2d2d()},
+            {"matches_2d3d", row.problem.adapter.getNumberCorrespondences2d3d()}};
+  if (row.problem.reference) json["reference_focal_length_px"] = row.problem.reference->focalLength;
+  json["hybrid"] = toJson(row.hybrid);
+  json["points_only"] = toJson(row.pointsOnly);
+  std::cout << json.dump() << std::endl;  // each object is complete and flushed before the next query starts
+}
+
+// On a terminal, redrawn after every query and wiped before the next line of output.
+class ProgressBar {
+ public:
+  ProgressBar(std::size_t count, bool enabled) : count_(count), enabled_(enabled && isatty(STDERR_FILENO)) {}
+  ~ProgressBar() { clear(); }
+  void show(std::size_t done) const {
+    constexpr int kWidth = 40;
+    const int filled = static_cast<int>(kWidth * done / count_);
+    if (enabled_)
+      std::fprintf(stderr, "\r[%s%s] %zu/%zu", std::string(static_cast<std::size_t>(filled), '#').c_str(),
+                   std::string(static_cast<std::size_t>(kWidth - filled), ' ').c_str(), done, count_);
+  }
+  void clear() const {
+    if (enabled_) std::fprintf(stderr, "\r\033[K");
+  }
+
+ private:
+  std::size_t count_;
+  bool enabled_;
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+// Collects what the closing line of the table says.
+class Summary {
+ public:
+  void add(const Localization& localization) {
+    ++queries_, successes_ += localization.result.success;
+    milliseconds_.push_back(1e3 * localization.result.seconds);
+    if (!localization.error) return;
+    focal_.push_back(std::abs(localization.error->focalPercent));
+    rotation_.push_back(localization.error->rotationDeg);
+    position_.push_back(localization.error->position);
+  }
+  void print(const char* name) const {
+    std::printf("%-24s localized %d of %d", name, successes_, queries_);
+    if (!focal_.empty())
+      std::printf("; medians: focal length %.3f %%, rotation %.4f deg, position %.5f", median(focal_), median(rotation_),
+                  median(position_));
+    std::printf(", %.2f ms\n", median(milliseconds_));
+  }
+
+ private:
+  int queries_ = 0, successes_ = 0;
+  std::vector<double> focal_, rotation_, position_, milliseconds_;
+};
+
+void run(const Arguments& arguments) {
+  const std::vector<Query> queries = collectQueries(arguments);
+  if (queries.empty()) throw std::invalid_argument("nothing to localize");
+  if (!arguments.json) printHeader();
+  const ProgressBar progress(queries.size(), !arguments.quiet);
+  Summary hybrid, pointsOnly;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    progress.show(i);
+    const Row row = localizeBothWays(queries[i](), arguments);
+    hybrid.add(row.hybrid), pointsOnly.add(row.pointsOnly);
+    progress.clear();
+    arguments.json ? printJson(row) : printRow(row);
+  }
+  if (arguments.json) return;
+  hybrid.print("hybrid");
+  pointsOnly.print("2D-3D only");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  try {
+    const int exitCode = parse(argc, argv, arguments);
+    if (exitCode >= 0) return exitCode;
+    run(arguments);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "localize: %s\n", error.what());
+    return 1;
+  }
+}
