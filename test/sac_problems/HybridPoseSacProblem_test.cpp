@@ -109,6 +109,26 @@ TEST_F(SacProblem, DistancesAreFinite) {
   EXPECT_EQ(problem.countWithinDistance(broken, 1.0), 0);
 }
 
+TEST_F(SacProblem, InliersAreTheDistancesBelowTheThreshold) {
+  test::addNoise(random_, 3, data_);
+  const NoncentralHybridAdapter adapter = test::makeAdapter(data_);
+  HybridPoseSacProblem problem(adapter, Solver::H13f, kReprojectionPx, kEpipolarPx);
+  MultiHybridPoseSacProblem multiProblem(adapter, Solver::H13f, kReprojectionPx, kEpipolarPx);
+  std::vector<double> distances;
+  problem.getDistancesToModel(data_.truth, distances);
+  const auto below = std::count_if(distances.begin(), distances.end(), [](double d) { return d < 1; });
+  EXPECT_GT(below, 5);
+  EXPECT_LT(below, 44);
+  std::vector<int> inliers;
+  problem.selectWithinDistance(data_.truth, 1.0, inliers);
+  std::vector<std::vector<int>> multiInliers;
+  multiProblem.selectWithinDistance(data_.truth, 1.0, multiInliers);
+  EXPECT_EQ(problem.countWithinDistance(data_.truth, 1.0), below);
+  EXPECT_EQ(multiProblem.countWithinDistance(data_.truth, 1.0), below);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(inliers.size()), below);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(multiInliers[0].size() + multiInliers[1].size()), below);
+}
+
 // The published first number of splitmix64 with seed 0 is 0xe220a8397b1dcdaf.
 TEST_F(SacProblem, RandomNumbersAreTheSameOnEveryPlatform) {
   EXPECT_EQ(flat(Solver::P4Pf, 0).rnd(), static_cast<int>(0xe220a8397b1dcdafULL >> 33));

@@ -7,7 +7,7 @@
 
 #include "CheckArguments.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
-#include "hybridgv/hybrid_pose/residuals.hpp"
+#include "robust/HybridArrays.hpp"
 #include "sac_problems/hybrid_pose/CopiedCorrespondences.hpp"
 #include "sac_problems/hybrid_pose/drawSample.hpp"
 #include "sac_problems/hybrid_pose/isDegenerate.hpp"
@@ -35,9 +35,10 @@ void checkCount(const char* what, int available, int needed, const char* solver)
                                 std::to_string(needed));
 }
 
-void checkRange(const char* name, int index, int count) {
-  if (index < 0 || index >= count)
-    throwInvalid(name, "index " + std::to_string(index) + " is outside the " + std::to_string(count) + " correspondences");
+void checkRanges(const char* name, const std::vector<int>& indices, int count) {
+  for (int i : indices)
+    if (i < 0 || i >= count)
+      throwInvalid(name, "index " + std::to_string(i) + " is outside the " + std::to_string(count) + " correspondences");
 }
 
 }  // namespace
@@ -46,47 +47,38 @@ struct HybridProblemCore::Data {
   Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx)
       : solver(solvers::minimalSolver(id)),
         correspondences(adapter),
+        arrays(correspondences, robust::allIndices(adapter.getNumberCorrespondences2d2d()),
+               robust::allIndices(adapter.getNumberCorrespondences2d3d())),
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx) {
+    for (std::size_t i = 0; i < arrays.rays().size(); ++i) cameras.push_back(correspondences.getCamIndex(i));
     checkThreshold("maxReprojectionErrorPx", reprojectionPx);
     checkThreshold("maxEpipolarErrorPx", epipolarPx);
     checkCount("2D-2D", count2d2d(), solver.rays, solver.name);
     checkCount("2D-3D", count2d3d(), solver.points, solver.name);
   }
 
-  int count2d2d() const { return static_cast<int>(correspondences.getNumberCorrespondences2d2d()); }
-  int count2d3d() const { return static_cast<int>(correspondences.getNumberCorrespondences2d3d()); }
+  int count2d2d() const { return static_cast<int>(arrays.rays().size()); }
+  int count2d3d() const { return static_cast<int>(arrays.points().size()); }
+  int count() const { return count2d2d() + count2d3d(); }
 
-  double distance2d2d(const FocalPose& pose, int index) const {
-    const auto i = static_cast<std::size_t>(index);
-    return bounded(hybridgv::hybrid_pose::sampsonError(pose, correspondences.getImagePoint2d2d(i),
-                                                       correspondences.getBearingVector(i), correspondences.getCamOffset(i),
-                                                       correspondences.getCamRotation(i), correspondences.getRigFocalLength(i)) /
-                   maxEpipolarErrorPx);
-  }
-  double distance2d3d(const FocalPose& pose, int index) const {
-    const auto i = static_cast<std::size_t>(index);
-    return bounded(
-        hybridgv::hybrid_pose::reprojectionError(pose, correspondences.getImagePoint2d3d(i), correspondences.getPoint(i)) /
-        maxReprojectionErrorPx);
-  }
-  static double bounded(double distance) { return distance < kMaxDistance ? distance : kMaxDistance; }  // also for NaN
-
-  // sum of min(distance^2, 1) over the pool; something above `limit` if it exceeds that.
-  double cost(const FocalPose& pose, const MultiIndices& pool, double limit) const {
-    double sum = 0;
-    const auto add = [&](double distance) { return (sum += std::min(distance * distance, 1.0)) <= limit; };
-    for (int i : pool[0])
-      if (!add(distance2d2d(pose, i))) return sum;
-    for (int i : pool[1])
-      if (!add(distance2d3d(pose, i))) return sum;
-    return sum;
+  // (error / threshold)^2 of all correspondences at their flat indices; infinite where the error is.
+  void computeSquaredDistances(const FocalPose& pose, std::vector<double>& result) const {
+    const robust::RayArrays rays = arrays.rayArrays();
+    const robust::PointArrays points = arrays.pointArrays();
+    result.resize(rays.size + points.size + robust::kPadding);
+    double* const ofPoints = result.data() + rays.size;
+    const robust::PlainPose plain = robust::toPlain(arrays.normalization().apply(pose));
+    robust::kernels().squaredRayErrors(rays, plain, result.data());  // their padding is overwritten by the points
+    robust::kernels().squaredPointErrors(points, plain, ofPoints);
+    for (std::size_t i = 0; i < rays.size; ++i) result[i] /= maxEpipolarErrorPx * maxEpipolarErrorPx;
+    for (std::size_t i = 0; i < points.size; ++i) ofPoints[i] /= maxReprojectionErrorPx * maxReprojectionErrorPx;
   }
 
   void checkPool(const char* name, const MultiIndices& indices) const {
     if (indices.size() != 2) throwInvalid(name, "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
-    for (int i : indices[0]) checkRange(name, i, count2d2d());
-    for (int i : indices[1]) checkRange(name, i, count2d3d());
+    checkRanges(name, indices[0], count2d2d());
+    checkRanges(name, indices[1], count2d3d());
   }
 
   Sample read(const MultiIndices& sample) const {
@@ -109,6 +101,8 @@ struct HybridProblemCore::Data {
 
   const solvers::MinimalSolver& solver;
   const CopiedCorrespondences correspondences;
+  const robust::HybridArrays arrays;
+  std::vector<int> cameras;  // of the 2D-2D correspondences
   const double maxReprojectionErrorPx, maxEpipolarErrorPx;
 };
 
@@ -120,22 +114,22 @@ std::array<int, 2> HybridProblemCore::size() const { return {data_->count2d2d(),
 std::array<int, 2> HybridProblemCore::sampleSize() const { return {data_->solver.rays, data_->solver.points}; }
 
 MultiIndices HybridProblemCore::split(const std::vector<int>& flat) const {
+  checkRanges("indices", flat, data_->count());
+  const int rays = data_->count2d2d();
   MultiIndices result(2);
-  const int rays = data_->count2d2d(), all = rays + data_->count2d3d();
-  for (int i : flat) {
-    checkRange("indices", i, all);
+  for (std::vector<int>& list : result) list.reserve(flat.size());
+  for (int i : flat)
     if (i < rays)
       result[0].push_back(i);
     else
       result[1].push_back(i - rays);
-  }
   return result;
 }
 
 std::vector<int> HybridProblemCore::join(const MultiIndices& indices) const {
-  std::vector<int> result;
-  if (indices.empty()) return result;
   data_->checkPool("indices", indices);
+  std::vector<int> result;
+  result.reserve(indices[0].size() + indices[1].size());
   result = indices[0];
   for (int i : indices[1]) result.push_back(i + data_->count2d2d());
   return result;
@@ -147,51 +141,57 @@ MultiIndices HybridProblemCore::drawSample(const MultiIndices& pool, bool raysFr
   const int rays = data_->solver.rays, points = data_->solver.points;
   if (pool[0].size() < static_cast<std::size_t>(rays) || pool[1].size() < static_cast<std::size_t>(points)) return {};
   MultiIndices sample(2);
-  if (raysFromOneCamera && rays > 1) {
-    std::vector<int> cameras;
-    for (int i : pool[0]) cameras.push_back(data_->correspondences.getCamIndex(static_cast<std::size_t>(i)));
-    sample[0] = drawSubset(drawCamera(pool[0], cameras, rays, random), rays, random);
-  } else {
-    sample[0] = drawSubset(pool[0], rays, random);
-  }
+  sample[0] = raysFromOneCamera && rays > 1 ? drawSubset(drawCamera(pool[0], data_->cameras, rays, random), rays, random)
+                                            : drawSubset(pool[0], rays, random);
   sample[1] = drawSubset(pool[1], points, random);
   return sample;
 }
 
 bool HybridProblemCore::isSampleGood(const MultiIndices& sample) const { return data_->isGood(data_->read(sample)); }
 
-bool HybridProblemCore::computeModel(const MultiIndices& sample, const MultiIndices& pool, FocalPose& model) const {
+bool HybridProblemCore::computeModel(const MultiIndices& sample, const std::vector<int>& pool, FocalPose& model) const {
   const Sample correspondences = data_->read(sample);
-  data_->checkPool("indices", pool);
+  checkRanges("indices", pool, data_->count());
   if (!data_->isGood(correspondences)) return false;
-  std::array<FocalPose, solvers::kMaxSolutions> solutions;
-  const int count = data_->solver.solve(correspondences.rays.data(), correspondences.points.data(), solutions.data());
+  std::vector<FocalPose> solutions(static_cast<std::size_t>(data_->solver.maxSolutions));
+  const int found = data_->solver.solve(correspondences.rays.data(), correspondences.points.data(), solutions.data());
+  solutions.resize(static_cast<std::size_t>(found));
+
+  std::vector<double> squaredDistances;
   double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < count; ++i) {
-    const FocalPose& solution = solutions[static_cast<std::size_t>(i)];
-    const double cost = data_->cost(solution, pool, best);
+  for (const FocalPose& solution : solutions) {
+    data_->computeSquaredDistances(solution, squaredDistances);
+    double cost = 0;
+    for (int i : pool) {
+      const double x = squaredDistances[static_cast<std::size_t>(i)];
+      cost += x < 1 ? x : 1;
+    }
     if (cost >= best) continue;
     best = cost;
     model = solution;
   }
-  return count > 0;
+  return !solutions.empty();
 }
 
 void HybridProblemCore::distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const {
-  const int rays = data_->count2d2d(), all = rays + data_->count2d3d();
-  result.clear();
-  for (int i : flat) {
-    checkRange("indices", i, all);
-    result.push_back(i < rays ? data_->distance2d2d(model, i) : data_->distance2d3d(model, i - rays));
+  checkRanges("indices", flat, data_->count());
+  std::vector<double> squaredDistances;
+  data_->computeSquaredDistances(model, squaredDistances);
+  result.resize(flat.size());
+  for (std::size_t k = 0; k < flat.size(); ++k) {
+    const double distance = std::sqrt(squaredDistances[static_cast<std::size_t>(flat[k])]);
+    result[k] = distance < kMaxDistance ? distance : kMaxDistance;  // the comparison is false for NaN
   }
 }
 
-void HybridProblemCore::distances(const FocalPose& model, const MultiIndices& indices,
-                                  std::vector<std::vector<double>>& result) const {
-  data_->checkPool("indices", indices);
-  result.assign(2, {});
-  for (int i : indices[0]) result[0].push_back(data_->distance2d2d(model, i));
-  for (int i : indices[1]) result[1].push_back(data_->distance2d3d(model, i));
+int HybridProblemCore::countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const {
+  checkRanges("indices", flat, data_->count());
+  std::vector<double> squaredDistances;
+  data_->computeSquaredDistances(model, squaredDistances);
+  const double squaredThreshold = threshold * threshold;
+  int count = 0;
+  for (int i : flat) count += squaredDistances[static_cast<std::size_t>(i)] < squaredThreshold;
+  return count;
 }
 
 FocalPose HybridProblemCore::optimize(const MultiIndices& inliers, const FocalPose& model) const {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
-#include <utility>
 
 namespace hybridgv {
 namespace sac_problems {
@@ -13,25 +11,34 @@ std::size_t drawIndex(std::size_t count, const std::function<int()>& random) {
   return static_cast<std::size_t>((static_cast<std::uint64_t>(random()) * count) >> 31);
 }
 
-std::vector<int> drawSubset(std::vector<int> list, int count, const std::function<int()>& random) {
-  const auto size = static_cast<std::size_t>(count);
-  for (std::size_t i = 0; i < size; ++i) std::swap(list[i], list[i + drawIndex(list.size() - i, random)]);
-  list.resize(size);
-  return list;
+std::vector<int> drawSubset(const std::vector<int>& list, int count, const std::function<int()>& random) {
+  std::vector<int> subset;
+  std::vector<std::size_t> taken;  // positions in the list, ascending
+  for (int i = 0; i < count; ++i) {
+    std::size_t position = drawIndex(list.size() - taken.size(), random);  // among those that are left
+    for (std::size_t t : taken) position += position >= t;
+    taken.insert(std::upper_bound(taken.begin(), taken.end(), position), position);
+    subset.push_back(list[position]);
+  }
+  return subset;
 }
 
 std::vector<int> drawCamera(const std::vector<int>& list, const std::vector<int>& cameras, int needed,
                             const std::function<int()>& random) {
-  std::map<int, int> matches;
-  for (int camera : cameras) ++matches[camera];
+  const auto cameraOf = [&](int i) { return static_cast<std::size_t>(cameras[static_cast<std::size_t>(i)]); };
+  std::vector<int> matches;
+  for (int i : list) {
+    if (matches.size() <= cameraOf(i)) matches.resize(cameraOf(i) + 1);
+    ++matches[cameraOf(i)];
+  }
   std::vector<int> candidates;
-  for (int camera : cameras)
-    if (matches[camera] >= needed) candidates.push_back(camera);
+  for (int i : list)
+    if (matches[cameraOf(i)] >= needed) candidates.push_back(i);
   if (candidates.empty()) return list;
-  const int chosen = candidates[drawIndex(candidates.size(), random)];
+  const std::size_t camera = cameraOf(candidates[drawIndex(candidates.size(), random)]);
   std::vector<int> result;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (cameras[i] == chosen) result.push_back(list[i]);
+  for (int i : candidates)
+    if (cameraOf(i) == camera) result.push_back(i);
   return result;
 }
 

@@ -12,10 +12,10 @@ namespace hybrid_pose {
 std::size_t drawIndex(std::size_t count, const std::function<int()>& random);
 
 // `count` different entries of the list, every set and every order equally likely; the list has at least that many.
-std::vector<int> drawSubset(std::vector<int> list, int count, const std::function<int()>& random);
+std::vector<int> drawSubset(const std::vector<int>& list, int count, const std::function<int()>& random);
 
-// The entries of the list that belong to one camera, cameras[i] being that of entry i. The camera is chosen with a probability
-// proportional to its number of entries, among those with at least `needed`; the whole list if there is none.
+// Those entries i of the list for which cameras[i] is one camera. It is chosen with a probability proportional to its number of
+// entries, among the cameras with at least `needed`; the whole list if there is none. Cameras are numbered 0, 1, ..
 std::vector<int> drawCamera(const std::vector<int>& list, const std::vector<int>& cameras, int needed,
                             const std::function<int()>& random);
 

@@ -34,11 +34,12 @@ namespace hybrid_pose {
 /// * **Samples** are minimal: m 2D-2D and n 2D-3D correspondences, every such set equally likely, and no further correspondence
 /// to
 ///   choose among several solutions. OpenGV wants one model for a sample: it gets the solution that explains the whole index list
-///   best. That costs one pass over the correspondences for each solution (a hopeless one is left early), the loop's own count
-///   is one more.
+///   best. That costs one pass over the correspondences for each solution (about 1 us for 400 of them), the loop's own count is
+///   one more. In exchange the right solution is kept practically always, where one extra correspondence keeps it in 82 to 95 %
+///   of the cases (50 to 20 % outliers, 1 px noise) and would enlarge the sample in the loop's stopping rule.
 /// * **H51f** draws its five rays from one rig camera where one has five (see setRaysFromOneCamera).
-/// * **Seed**: the same seed gives the same result on every platform. All random numbers come from OpenGV's rnd(), which this
-/// class
+/// * **Seed**: the same seed gives the same samples on every platform, and the same result on the same machine. All random
+/// numbers come from OpenGV's rnd(), which this class
 ///   sets up.
 /// * **Data**: the adapter is only read, once, in the constructor, and may be destroyed afterwards. Several problems may share
 /// one.
@@ -85,7 +86,8 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   void getSamples(int& /*iterations*/, std::vector<int>& samples) override {
     const MultiIndices pool = core_.split(*indices_);
     for (int check = 0; check == 0 || check < max_sample_checks_; ++check) {
-      samples = core_.join(core_.drawSample(pool, raysFromOneCamera_, *rng_gen_));
+      const MultiIndices sample = core_.drawSample(pool, raysFromOneCamera_, *rng_gen_);
+      samples = sample.empty() ? std::vector<int>() : core_.join(sample);
       if (samples.empty() || isSampleGood(samples)) return;
     }
   }
@@ -94,12 +96,16 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   bool isSampleGood(const std::vector<int>& sample) const override { return core_.isSampleGood(core_.split(sample)); }
 
   bool computeModelCoefficients(const std::vector<int>& indices, model_t& outModel) const override {
-    return core_.computeModel(core_.split(indices), core_.split(*indices_), outModel);
+    return core_.computeModel(core_.split(indices), *indices_, outModel);
   }
 
   void getSelectedDistancesToModel(const model_t& model, const std::vector<int>& indices,
                                    std::vector<double>& scores) const override {
     core_.distances(model, indices, scores);
+  }
+
+  int countWithinDistance(const model_t& model, const double threshold) override {
+    return core_.countWithin(model, *indices_, threshold);
   }
 
   /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.

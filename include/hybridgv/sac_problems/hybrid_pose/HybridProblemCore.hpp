@@ -40,6 +40,7 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   /// Flat indices: 0 .. n2d2d-1 are the 2D-2D correspondences, the 2D-3D ones follow. Throws std::invalid_argument for an index
   /// that is out of range.
   MultiIndices split(const std::vector<int>& flat) const;
+  /// The inverse: the 2D-2D correspondences, then the 2D-3D ones.
   std::vector<int> join(const MultiIndices& indices) const;
 
   /// Draws a minimal sample from `pool` with random numbers 0 .. 2^31-1: every subset of the right mixture is equally likely.
@@ -51,15 +52,16 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   /// coincident points, rays on one line, a ray through a point of the sample. All up to 1e-6, relative.
   bool isSampleGood(const MultiIndices& sample) const;
 
-  /// Solves the sample and keeps that solution which explains `pool` best, by the sum of min(distance^2, 1). Returns false if
-  /// there is no solution.
-  bool computeModel(const MultiIndices& sample, const MultiIndices& pool, FocalPose& model) const;
+  /// Solves the sample and keeps that solution which explains the pool (flat indices) best, by the sum of min(distance^2, 1).
+  /// Returns false if there is no solution.
+  bool computeModel(const MultiIndices& sample, const std::vector<int>& pool, FocalPose& model) const;
 
-  /// Distances to the model, each an error in pixels divided by its own threshold; finite (kMaxDistance for a point behind the
-  /// camera). `flat` as in split(), the order is kept.
+  /// Distances of correspondences (flat indices) to the model, in the same order: each an error in pixels divided by its own
+  /// threshold; finite (kMaxDistance for a point behind the camera).
   void distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const;
-  /// The same for both lists of multi-indices.
-  void distances(const FocalPose& model, const MultiIndices& indices, std::vector<std::vector<double>>& result) const;
+
+  /// How many of these distances are below `threshold`.
+  int countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const;
 
   /// hybrid_pose::optimize_nonlinear on the inliers.
   FocalPose optimize(const MultiIndices& inliers, const FocalPose& model) const;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -61,12 +62,19 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
   bool isSampleGood(const std::vector<std::vector<int>>& sample) const override { return core_.isSampleGood(sample); }
 
   bool computeModelCoefficients(const std::vector<std::vector<int>>& indices, model_t& outModel) const override {
-    return core_.computeModel(indices, *indices_, outModel);
+    return core_.computeModel(indices, core_.join(*indices_), outModel);
   }
 
   void getSelectedDistancesToModel(const model_t& model, const std::vector<std::vector<int>>& indices,
                                    std::vector<std::vector<double>>& scores) const override {
-    core_.distances(model, indices, scores);
+    std::vector<double> flat;
+    core_.distances(model, core_.join(indices), flat);
+    const auto middle = flat.begin() + static_cast<std::ptrdiff_t>(indices[0].size());
+    scores = {{flat.begin(), middle}, {middle, flat.end()}};
+  }
+
+  int countWithinDistance(const model_t& model, const double threshold) override {
+    return core_.countWithin(model, core_.join(*indices_), threshold);
   }
 
   /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.
