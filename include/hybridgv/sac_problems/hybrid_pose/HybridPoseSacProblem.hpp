@@ -29,27 +29,28 @@ namespace hybrid_pose {
 ///       ransac.sac_model_->optimizeModelCoefficients(ransac.inliers_, ransac.model_coefficients_, refined);
 ///
 /// * **Thresholds** are in pixels of the query image, one for each type. The distance that OpenGV sees is the error divided by
-/// its
-///   threshold, so `threshold_` is always 1.0 (OpenGV's default). It is always finite.
-/// * **Samples** are minimal: m 2D-2D and n 2D-3D correspondences, every such set equally likely, and no further correspondence
-/// to
-///   choose among several solutions. OpenGV wants one model for a sample: it gets the solution that explains the whole index list
-///   best. That costs one pass over the correspondences for each solution (about 1 us for 400 of them), the loop's own count is
-///   one more. In exchange the right solution is kept practically always, where one extra correspondence keeps it in 82 to 95 %
-///   of the cases (50 to 20 % outliers, 1 px noise) and would enlarge the sample in the loop's stopping rule.
+///   its threshold, so `threshold_` is always 1.0 (OpenGV's default). It is always finite.
+/// * **Samples** are minimal: m 2D-2D and n 2D-3D correspondences, every such set equally likely, and no further
+///   correspondence to choose among several solutions. OpenGV wants one model for a sample: it gets the solution that explains
+///   the whole index list best. That costs one pass over the correspondences for each solution (about 1 us for 400 of them); the
+///   loop's own count is one more. In exchange the right solution is kept practically always, where one extra correspondence
+///   keeps it in 82 to 95 % of the cases (50 to 20 % outliers, 1 px noise) and would enlarge the sample in the loop's stopping
+///   rule.
 /// * **H51f** draws its five rays from one rig camera where one has five (see setRaysFromOneCamera).
 /// * **Seed**: the same seed gives the same samples on every platform, and the same result on the same machine. All random
-/// numbers come from OpenGV's rnd(), which this class
-///   sets up.
+///   numbers come from OpenGV's rnd(), which this class sets up.
 /// * **Data**: the adapter is only read, once, in the constructor, and may be destroyed afterwards. Several problems may share
-/// one.
+///   one, also in several threads.
 ///
-/// What the loops themselves do and a problem cannot change: they know one pooled inlier share, so that their number of
-/// iterations is right only if both types have similar shares (too small if the type that the solver needs more of is the worse
-/// one: raise `probability_`); Ransac runs max_iterations_ + 1 iterations; samples without a solution are not counted but limited
-/// to 10 max_iterations_, which must stay below 2^31; Lmeds minimises the median over both types together, so more than half of
-/// all correspondences must be inliers; a second call of computeModel on the same loop object that finds nothing leaves the first
-/// one's model there.
+/// What the loops themselves do and a problem cannot change:
+///
+/// * They know one pooled inlier share, so that their number of iterations is right only if both types have similar shares. It
+///   is too small if the type of which the solver needs more has the smaller share: raise `probability_`.
+/// * Ransac runs max_iterations_ + 1 iterations. Samples without a solution are not counted, but limited to
+///   10 max_iterations_, which must stay below 2^31.
+/// * Lmeds minimises the median over both types together: more than half of all correspondences must be inliers.
+/// * A second call of computeModel on the same loop object that finds nothing leaves the first one's model there and returns
+///   true.
 class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPose> {
  public:
   using model_t = FocalPose;
