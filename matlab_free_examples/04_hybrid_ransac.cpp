@@ -23,7 +23,8 @@ int main() {
   std::vector<int> cameras;
   for (int i = 0; i < 300; ++i) {
     const Vector3d point(uniform(-2, 3), uniform(-2, 2), uniform(4, 9));
-    const Vector3d image = i % 3 ? photograph(point) : Vector3d(uniform(-400, 400), uniform(-300, 300), 1);  // every third is wrong
+    const Vector3d image =
+        i % 3 ? photograph(point) : Vector3d(uniform(-400, 400), uniform(-300, 300), 1);  // every third is wrong
     if (i < 150) {  // only one rig camera saw it: a viewing ray
       cameras.push_back(i % 2);
       imagePoints2d2d.push_back(image);

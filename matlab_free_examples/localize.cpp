@@ -3,10 +3,10 @@
 //   localize                          the default map, each of its photos in turn as the query
 //   localize MAP [--query NAME ...]   a COLMAP folder (text or binary), a Bundler .out or an NVM file
 //   localize PROBLEM.txt ...          problems in the text format of hybridgv/adapters/sfm/LocalizationProblem.hpp
+#include <unistd.h>
 #include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
 #include <hybridgv/sac/HybridRansac.hpp>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -51,9 +51,11 @@ int parse(int argc, char** argv, Arguments& arguments) {
   app.add_option("-s,--solver", arguments.solver, "minimal solver: all, p4pf, p35pf, h13f, h32f or h51f")->capture_default_str();
   app.add_option("--max-reprojection-error", arguments.ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]")
       ->capture_default_str();
-  app.add_option("--max-epipolar-error", arguments.ransac.maxEpipolarErrorPx, "inlier threshold of 2D-2D matches, Sampson error [px]")
+  app.add_option("--max-epipolar-error", arguments.ransac.maxEpipolarErrorPx,
+                 "inlier threshold of 2D-2D matches, Sampson error [px]")
       ->capture_default_str();
-  app.add_option("--min-parallax", arguments.matches.minParallaxDeg, "smaller parallax of the map's rays makes a match 2D-2D [deg]")
+  app.add_option("--min-parallax", arguments.matches.minParallaxDeg,
+                 "smaller parallax of the map's rays makes a match 2D-2D [deg]")
       ->capture_default_str();
   app.add_option("--outliers", arguments.outlierShare, "share of the matches to pair wrongly, 0 .. 1")->capture_default_str();
   app.add_option("--seed", arguments.ransac.seed, "seed of everything random")->capture_default_str();

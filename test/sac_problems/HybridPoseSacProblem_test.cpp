@@ -21,7 +21,7 @@ namespace hybrid_pose {
 namespace {
 
 constexpr double kReprojectionPx = 4, kEpipolarPx = 2;
-constexpr Solver kAllSolvers[] = {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H51f};
+constexpr Solver kAllSolvers[] = {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f};
 
 class SacProblem : public testing::Test {
  protected:
@@ -223,7 +223,7 @@ TEST_F(SacProblem, DegenerateSamplesAreDrawnAgain) {
 TEST_F(SacProblem, DegenerateSampleHasNoModel) {
   for (solvers::PointMatch& match : data_.points) match.point = data_.points[0].point;
   const NoncentralHybridAdapter adapter = test::makeAdapter(data_);
-  for (Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f}) {
+  for (Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f}) {
     HybridPoseSacProblem problem(adapter, solver, kReprojectionPx, kEpipolarPx);
     int unused = 0;
     std::vector<int> sample;
@@ -292,11 +292,14 @@ TEST_F(SacProblem, TooFewCorrespondencesAreAWrongCall) {
   };
   construct({}, 4, Solver::P4Pf);
   construct({1}, 3, Solver::H13f);
+  construct({2, 1}, 2, Solver::H32f);
   construct({2, 3}, 1, Solver::H51f);
   expectInvalid("3 2D-3D correspondences, p4pf needs 4", [&] { construct({9}, 3, Solver::P4Pf); });
   expectInvalid("3 2D-3D correspondences, p35pf needs 4", [&] { construct({9}, 3, Solver::P35Pf); });
   expectInvalid("0 2D-2D correspondences, h13f needs 1", [&] { construct({}, 9, Solver::H13f); });
   expectInvalid("2 2D-3D correspondences, h13f needs 3", [&] { construct({9}, 2, Solver::H13f); });
+  expectInvalid("2 2D-2D correspondences, h32f needs 3", [&] { construct({2}, 9, Solver::H32f); });
+  expectInvalid("1 2D-3D correspondences, h32f needs 2", [&] { construct({9}, 1, Solver::H32f); });
   expectInvalid("4 2D-2D correspondences, h51f needs 5", [&] { construct({4}, 9, Solver::H51f); });
   expectInvalid("0 2D-3D correspondences, h51f needs 1", [&] { construct({9}, 0, Solver::H51f); });
 }

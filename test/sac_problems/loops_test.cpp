@@ -110,7 +110,7 @@ std::string name(const testing::TestParamInfo<std::tuple<NamedLoop, Solver>>& in
 }
 INSTANTIATE_TEST_SUITE_P(All, SacLoops,
                          testing::Combine(testing::ValuesIn(kLoops),
-                                          testing::Values(Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H51f)),
+                                          testing::Values(Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f)),
                          name);
 
 }  // namespace
