@@ -1,13 +1,18 @@
 // H51f: five rays and one point; the algorithm depends on which rays share a centre.
+#include <algorithm>
+
+#include "solvers/h51f/Reduction.hpp"
+#include "solvers/h51f/solve.hpp"
 #include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace solvers {
 
 int h51f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions) {
-  for (int i = 1; i < 5; ++i)
-    if (rays[i].camera != rays[0].camera && rays[i].centre != rays[0].centre) return 0;
-  return h51fOneCentre(rays, points, solutions);
+  const auto belongsToFirst = [&](const RayMatch& ray) { return hybridgv::h51f::sameCentre(rays[0], ray, points[0].point); };
+  if (std::all_of(rays + 1, rays + hybridgv::h51f::kRays, belongsToFirst)) return h51fOneCentre(rays, points, solutions);
+  hybridgv::h51f::EndPoints ends;
+  return hybridgv::h51f::solve(math::simdLevel(), hybridgv::h51f::Effort::Complete, rays, points[0], solutions, &ends);
 }
 
 }  // namespace solvers

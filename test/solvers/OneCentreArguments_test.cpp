@@ -66,16 +66,6 @@ TEST(H51fOneCentre, PublicFunctionRefusesWrongCalls) {
         test.name, [&] { hybrid_pose::h51f(adapter, test.indices); }, test.text);
 }
 
-TEST(H51f, RaysOfDifferentRigCamerasAreRefused) {
-  const NoncentralHybridAdapter adapter = exampleAdapter();
-  expectRefused(
-      "[4]",
-      [&] {
-        hybrid_pose::h51f(adapter, {{0, 1, 2, 3, 7}, {0}});
-      },
-      "different rig cameras: not available");
-}
-
 // An adapter with a value that is not finite: NoncentralHybridAdapter refuses to hold one.
 class BrokenAdapter : public NoncentralHybridAdapter {
  public:

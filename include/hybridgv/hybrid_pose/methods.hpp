@@ -58,8 +58,7 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// \param[in] adapter Correspondences: image points in pixels relative to the principal point (any scale); rays and points in the
 ///                    rig's frame and unit.
 /// \param[in] indices indices[0]: five 2D-2D correspondences, indices[1]: one 2D-3D correspondence; more are ignored. The
-/// overload
-///                    without indices takes the first five and the first.
+///                    overload without indices takes the first five and the first.
 /// \return Poses with positive focal length that satisfy all equations; an empty list if there is none or the data are
 ///         degenerate.
 ///
@@ -71,10 +70,24 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// on the line through both centres, fewer than six independent constraints (repeated correspondences, all image points equal,
 /// ..), two image points exactly at the principal point.
 ///
-/// Other configurations are not available in this version.
+/// Configurations [1] to [4], rays of two to five rig cameras: at most 56 poses with [1] and [2], 50 with [3], 36 with [4]
+/// (complex solutions of the equations; 2.5 poses on average). Rays have one centre if they belong to one rig camera, or if their
+/// centres differ by less than 1e-9 of the distance from X. Method: a parameter homotopy. All 56 (50, 36) solutions of a fixed
+/// start system are followed along the straight way to the given one, in single precision, several paths at once in the lanes of
+/// the processor's vector registers (SSE2, AVX2 or AVX-512, chosen at run time; the environment variable
+/// HYBRIDGV_SIMD=sse2|avx2|avx512 asks for less); the end points are polished in double precision, and doubtful paths followed
+/// again with smaller steps.
+/// - A pose may be missing where two solutions nearly coincide, or where two paths pass each other so closely that one of them
+/// takes
+///   the other's end. Measured: the true pose is found in more than 99.99 % of random scenes, also with planar scenes and with
+///   rigs whose baseline is a hundredth of the distance; see the CHANGELOG for the counts.
+/// - An image point exactly at the principal point moves 8 to 24 solutions to infinity, which takes three to four times as long;
+/// the
+///   others are found.
+/// - Degenerate, normally nothing is returned: a repeated ray, a ray through X, all image points equal, all rays parallel, all
+///   points on one line. The number of steps is bounded, and such data take a few milliseconds at most.
 ///
-/// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite, rays of
-///         different rig cameras.
+/// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite.
 ///
 /// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
 /// correspondences", WACV 2023, which poses the problem and counts its solutions.

@@ -1,0 +1,232 @@
+// The two passes of the path tracking of H51f:
+//
+//   1  all paths in single precision; end points that may be real, doubtful or double are polished in double precision
+//   2  paths that failed, did not converge, ended on an improper solution or on the same one as another path are tracked again in
+//      double precision with pivoting and small steps, in up to three rounds, each more careful
+//
+// Compiled once per instruction set, see math/simd/Lanes.hpp.
+#pragma once
+
+#include "solvers/h51f/System.hpp"
+#include "solvers/h51f/solvePaths.hpp"
+
+namespace hybridgv {
+namespace HYBRIDGV_INSTRUCTION_SET {
+
+class PathSolver {
+ public:
+  PathSolver(const h51f::StartSystem& start, const h51f::Parameters& target)
+      : start_(start),
+        path_(h51f::straightPath(start.parameters, target)),
+        pointImage_(scalar(target.pointImage)),
+        pointImageBar_(scalar(target.pointImageBar)) {}
+
+  // The number of steps of every path in the first pass; the largest number for those that fail.
+  void countSteps(int* steps) {
+    PathEnd<float, h51f::kUnknowns> ends[h51f::kMaxPaths];
+    firstPass(ends);
+    for (int i = 0; i < start_.paths; ++i) steps[i] = ends[i].reached ? ends[i].attempts : kFirstPass.attempts;
+  }
+
+  void solve(h51f::Effort effort, h51f::EndPoints* ends) {
+    ends->paths = start_.paths, ends->accepted = 0, ends->count = 0, ends->steps = 0;
+    PathEnd<float, N> first[kMaxPaths];
+    firstPass(first);
+    for (int i = 0; i < start_.paths; ++i) ends->steps += first[i].attempts;
+    sortOut();
+    if (countOf(State::Bad) > kHopeless * start_.paths) return;
+    if (effort == h51f::Effort::Complete)
+      for (int round = 0; round < kRounds && countOf(State::Bad) > 0; ++round) ends->steps += secondPass(round);
+    collect(ends);
+  }
+
+ private:
+  static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths, kRounds = h51f::kRounds;
+  static constexpr TrackingOptions kFirstPass{1.5e-2, 9e-2, 3e-3, 0.03, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
+  static constexpr double kHopeless = 0.8;         // share of bad paths that only degenerate data have
+  static constexpr double kFloatConverged = 1e-4;  // last Newton step in single precision
+  static constexpr double kFloatReal = 3e-2;       // single precision solutions that are this close to real may be real
+  static constexpr double kFloatDistinct = 1e-3;
+  static constexpr double kConverged = 1e-8, kDistinct = 1e-6, kReal = 1e-6, kImproper = 1e-7, kFloatImproper = 1e-3;
+
+  using Scalar = Complex<double>;
+  using DoublePoint = Point<double, N>;
+  using FirstTracker = PathTracker<H51fSystem, Floats, Pivoting::None>;
+  using SecondTracker = PathTracker<H51fSystem, Doubles, Pivoting::Rows>;
+
+  enum class State {
+    Single,  // a solution, known to single precision and not real
+    Double,  // a solution to double precision
+    Bad,
+    AtInfinity,  // bad, and not worth another round
+  };
+
+  static Scalar scalar(const h51f::ComplexNumber& a) { return {a.re, a.im}; }
+  Scalar at(int i, int k) const { return {point_[i].re[k], point_[i].im[k]}; }
+  static double norm(const Scalar& a) { return __builtin_sqrt(squaredNorm(a)); }
+
+  int countOf(State state) const {
+    int count = 0;
+    for (int i = 0; i < start_.paths; ++i) count += state_[i] == state;
+    return count;
+  }
+
+  // --- first pass
+
+  template <int Degree>
+  static void narrow(const math::Polynomial<double, Degree>& from, math::Polynomial<float, Degree>& to) {
+    for (int k = 0; k <= Degree; ++k) to.re[k] = static_cast<float>(from.re[k]), to.im[k] = static_cast<float>(from.im[k]);
+  }
+  static void narrow(const h51f::VectorPath<double>& from, h51f::VectorPath<float>& to) {
+    narrow(from.plus, to.plus), narrow(from.minus, to.minus), narrow(from.third, to.third);
+  }
+  static void narrow(const h51f::SystemPath<double>& from, h51f::SystemPath<float>& to) {
+    narrow(from.pointImage, to.pointImage), narrow(from.pointImageBar, to.pointImageBar);
+    for (int j = 0; j < h51f::kRays; ++j) {
+      narrow(from.ray[j].direction, to.ray[j].direction), narrow(from.ray[j].moment, to.ray[j].moment);
+      narrow(from.ray[j].image, to.ray[j].image), narrow(from.ray[j].imageBar, to.ray[j].imageBar);
+      narrow(from.ray[j].cross, to.ray[j].cross);
+    }
+  }
+
+  void firstPass(PathEnd<float, N>* ends) {
+    h51f::SystemPath<float> path;
+    narrow(path_, path);
+    Point<float, N> tangents[kMaxPaths], reached[kMaxPaths];
+    int all[kMaxPaths];
+    float lastStep[kMaxPaths];
+    for (int i = 0; i < start_.paths; ++i) all[i] = i;
+    FirstTracker::startTangents(path, start_.solutions, all, start_.paths, tangents);
+    FirstTracker::track(path, start_.solutions, tangents, all, start_.paths, kFirstPass, ends);
+    for (int i = 0; i < start_.paths; ++i) reached[i] = ends[i].point;
+    newtonSteps<H51fSystem, Floats, Pivoting::None>(path, 1, reached, all, start_.paths, 1, lastStep);
+    for (int i = 0; i < start_.paths; ++i) {
+      for (int k = 0; k < N; ++k) point_[i].re[k] = reached[i].re[k], point_[i].im[k] = reached[i].im[k];
+      state_[i] = ends[i].reached ? State::Single : State::Bad;
+      doubtful_[i] = !(lastStep[i] < kFloatConverged);
+    }
+  }
+
+  // --- judging end points
+
+  // Whether the end points differ by less than the tolerance, relative to their size.
+  bool coincide(int i, int j, double tolerance) const {
+    for (int k = 0; k < N; ++k)
+      if (squaredNorm(at(i, k) - at(j, k)) > tolerance * tolerance * (1 + squaredNorm(at(i, k)))) return false;
+    return true;
+  }
+
+  bool isReal(int i, double tolerance) const {
+    const Scalar x = at(i, H51fSystem::X), alpha = at(i, H51fSystem::Alpha), d = at(i, H51fSystem::D);
+    return norm(at(i, H51fSystem::Y) - conjugate(x)) < tolerance * (1 + norm(x)) &&
+           norm(at(i, H51fSystem::Beta) - conjugate(alpha)) < tolerance * norm(alpha) &&
+           __builtin_fabs(d.im) < tolerance * norm(d);
+  }
+
+  // Where three or more rays share a centre c = (0, 0, 1), a query at c satisfies their equations: n.c + d = 0, z.c + d pi0 = 0
+  // and its conjugate.
+  bool isImproper(int i, double tolerance) const {
+    if (start_.sharing == h51f::Sharing::AtMostTwo) return false;
+    const Scalar x = at(i, H51fSystem::X), y = at(i, H51fSystem::Y), d = at(i, H51fSystem::D), xy = x * y, one{1, 0};
+    const Scalar scale = reciprocal(one + xy);
+    return norm((one - xy) * scale + d) < tolerance &&
+           norm(pointImage_ * d - twice(x) * scale * reciprocal(at(i, H51fSystem::Beta))) < tolerance &&
+           norm(pointImageBar_ * d - twice(y) * scale * reciprocal(at(i, H51fSystem::Alpha))) < tolerance;
+  }
+
+  void polish(const int* indices, int count, int steps) {
+    double lastStep[kMaxPaths];
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path_, 1, point_, indices, count, steps, lastStep);
+    for (int i = 0; i < count; ++i) state_[indices[i]] = lastStep[indices[i]] < kConverged ? State::Double : State::Bad;
+  }
+
+  // Polishes what single precision cannot decide and finds what is bad.
+  void sortOut() {
+    int undecided[kMaxPaths] = {}, count = 0;
+    for (int i = 0; i < start_.paths; ++i) {
+      if (state_[i] != State::Single) continue;
+      bool decided =
+          !doubtful_[i] && !isImproper(i, kFloatImproper) && !(isReal(i, kFloatReal) && point_[i].re[H51fSystem::D] > 0);
+      for (int j = 0; j < start_.paths && decided; ++j) decided = j == i || isBad(j) || !coincide(i, j, kFloatDistinct);
+      if (!decided) undecided[count++] = i;
+    }
+    polish(undecided, count, kPolishSteps);
+    for (int i = 0; i < start_.paths; ++i)
+      if (state_[i] == State::Double && isImproper(i, kImproper)) state_[i] = State::Bad;
+    bool twin[kMaxPaths] = {};
+    for (int i = 0; i < start_.paths; ++i)
+      for (int j = 0; j < i; ++j)
+        if (state_[i] == State::Double && state_[j] == State::Double && coincide(i, j, kDistinct)) twin[i] = twin[j] = true;
+    for (int i = 0; i < start_.paths; ++i) twin_[i] = twin[i];
+    for (int i = 0; i < start_.paths; ++i)
+      if (twin[i]) state_[i] = State::Bad;
+  }
+  bool isBad(int i) const { return state_[i] == State::Bad || state_[i] == State::AtInfinity; }
+
+  // --- second pass
+
+  // Returns the number of steps.
+  int secondPass(int round) {
+    int bad[kMaxPaths] = {}, count = 0;
+    for (int i = 0; i < start_.paths; ++i)
+      if (state_[i] == State::Bad) bad[count++] = i;
+    DoublePoint starts[kMaxPaths], tangents[kMaxPaths];
+    PathEnd<double, N> ends[kMaxPaths];
+    double lastStep[kMaxPaths];
+    int all[kMaxPaths];
+    for (int i = 0; i < count; ++i) {
+      all[i] = i;
+      for (int k = 0; k < N; ++k)
+        starts[i].re[k] = start_.solutions[bad[i]].re[k], starts[i].im[k] = start_.solutions[bad[i]].im[k];
+    }
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path_, 0, starts, all, count, kPolishSteps, lastStep);
+    SecondTracker::startTangents(path_, starts, all, count, tangents);
+    const double care[kRounds] = {1, 0.1, 0.01};
+    TrackingOptions options{1e-3, 1e-2, 1e-5, 0.01, 0.1, 1e-13, h51f::kMaxStepsSecondPass};
+    options.tolerance *= care[round], options.acceptSecond *= care[round];
+    options.acceptFirst *= __builtin_sqrt(care[round]);
+    SecondTracker::track(path_, starts, tangents, all, count, options, ends);
+    int reached[kMaxPaths] = {}, countReached = 0, steps = 0;
+    for (int i = 0; i < count; ++i) {
+      steps += ends[i].attempts;
+      point_[bad[i]] = ends[i].point;
+      state_[bad[i]] = State::AtInfinity;
+      if (ends[i].reached) reached[countReached++] = bad[i];
+    }
+    polish(reached, countReached, 12);
+    sortOut();
+    return steps;
+  }
+
+  // --- result
+
+  void collect(h51f::EndPoints* ends) {
+    for (int i = 0; i < start_.paths; ++i) keepOneTwin(i);
+    for (int i = 0; i < start_.paths; ++i) {
+      if (isBad(i)) continue;
+      ++ends->accepted;
+      if (state_[i] != State::Double || !isReal(i, kReal) || !(point_[i].re[H51fSystem::D] > 0)) continue;
+      ends->point[ends->count++] = point_[i];
+    }
+  }
+
+  // Of paths that ended on the same solution, the first counts.
+  void keepOneTwin(int i) {
+    if (!twin_[i]) return;
+    for (int j = 0; j < i; ++j)
+      if (twin_[j] && coincide(i, j, kDistinct)) return;
+    state_[i] = State::Double;
+  }
+
+  static constexpr int kPolishSteps = 3;
+
+  const h51f::StartSystem& start_;
+  const h51f::SystemPath<double> path_;
+  const Scalar pointImage_, pointImageBar_;
+  DoublePoint point_[kMaxPaths];
+  State state_[kMaxPaths];
+  bool doubtful_[kMaxPaths], twin_[kMaxPaths] = {};
+};
+
+}  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace hybridgv

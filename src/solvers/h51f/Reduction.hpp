@@ -1,0 +1,58 @@
+// From a sample to the parameters of the equations of System.hpp, and from their solutions back to poses.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+#include "solvers/MinimalSolver.hpp"
+#include "solvers/h51f/Problem.hpp"
+
+namespace hybridgv {
+namespace h51f {
+
+// How many of the first rays have the centre (0, 0, 1).
+constexpr int sharedRays(Sharing sharing) { return sharing == Sharing::AtMostTwo ? 0 : sharing == Sharing::Three ? 3 : 4; }
+
+// Copies the rays in the order in which start systems have them: those of the shared centre first, and by the angle between their
+// image point and the 3D point's, which brings samples closer to the start system. Not for five rays of one centre.
+Sharing arrange(const solvers::RayMatch* rays, const solvers::PointMatch& point, solvers::RayMatch* arranged);
+
+// Whether rays i and j have the same centre: they belong to one camera, or the centres differ by less than kSameCentre times
+// their distance from the 3D point.
+constexpr double kSameCentre = 1e-9;
+bool sameCentre(const solvers::RayMatch& a, const solvers::RayMatch& b, const Eigen::Vector3d& point);
+
+// Rig coordinates X' = turn (X - origin) / length, image coordinates pi' = phase pi / imageScale.
+struct Frame {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double length = 1;
+  std::complex<double> phase = 1;
+  double imageScale = 1;
+};
+
+// The 3D point as origin; a shared centre at (0, 0, 1), otherwise mean distance 1 of the ray centres from the origin.
+Frame normalisingFrame(Sharing sharing, const solvers::RayMatch* rays, const solvers::PointMatch& point, double imageScale);
+
+// Turns the rig's and the image's axes so that the sample comes close to the real parts of a start system: least squares over
+// directions and moments of the rays, and over the image points. A shared centre stays where it is.
+void alignWith(const StartSystem& start, const solvers::RayMatch* rays, const solvers::PointMatch& point, Frame* frame);
+
+Parameters parametersIn(const Frame& frame, Sharing sharing, const solvers::RayMatch* rays, const solvers::PointMatch& point);
+
+// The equation of a ray is homogeneous in (direction, moment): gives each ray the sign and the length of the start system's.
+void scaleRaysLike(const Parameters& start, Parameters* parameters);
+
+// A solution (x, y, alpha, beta, d) of the equations.
+struct Solution {
+  std::complex<double> x, y, alpha, beta, d;
+};
+
+// The solution that belongs to a pose.
+Solution solutionOf(const FocalPose& pose, const Frame& frame, const solvers::PointMatch& point);
+
+// The pose of a real solution (y = conj x, alpha = conj beta, d real; deviations are averaged out).
+FocalPose poseOf(const Solution& solution, const Frame& frame, const solvers::PointMatch& point);
+
+}  // namespace h51f
+}  // namespace hybridgv

@@ -1,0 +1,65 @@
+#include "solvers/h51f/solve.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/OneFocalFundamental.hpp"
+#include "solvers/h51f/Reduction.hpp"
+#include "solvers/h51f/StartSystems.hpp"
+
+namespace hybridgv {
+namespace h51f {
+
+using Eigen::Vector3d;
+using solvers::PointMatch;
+using solvers::RayMatch;
+
+// Distance of the image points from the images of the rays, relative to the largest image coordinate.
+constexpr double kLargestResidual = 1e-7;
+
+static double largestCoordinate(const RayMatch* rays, const PointMatch& point) {
+  double largest = std::max(std::abs(point.u), std::abs(point.v));
+  for (int j = 0; j < kRays; ++j) largest = std::max({largest, std::abs(rays[j].u), std::abs(rays[j].v)});
+  return largest;
+}
+
+// Is the ray seen at its image point, in front of both cameras?
+static bool agrees(const FocalPose& pose, const RayMatch& ray, double imageScale) {
+  const double f = pose.focalLength;
+  const Vector3d direction = pose.rotation.transpose() * ray.direction;
+  const Vector3d centre = pose.rotation.transpose() * (ray.centre - pose.position);
+  const Vector3d normal = direction.cross(centre), line(normal[0], normal[1], normal[2] * f);  // line.(u, v, 1) = 0
+  const double residual = std::abs(line.dot(Vector3d(ray.u, ray.v, 1)));
+  return residual < kLargestResidual * imageScale * line.head<2>().norm() &&
+         solvers::meetInFront(ray.u, ray.v, f, direction, centre.normalized());
+}
+
+static Solution solutionAt(const math::Point<double, kUnknowns>& p) {
+  return {{p.re[0], p.im[0]}, {p.re[1], p.im[1]}, {p.re[2], p.im[2]}, {p.re[3], p.im[3]}, {p.re[4], p.im[4]}};
+}
+
+int solve(math::SimdLevel level, Effort effort, const RayMatch* rays, const PointMatch& point, FocalPose* solutions,
+          EndPoints* ends) {
+  *ends = EndPoints();
+  const double imageScale = largestCoordinate(rays, point);
+  RayMatch arranged[kRays];
+  const Sharing sharing = arrange(rays, point, arranged);
+  Frame frame = normalisingFrame(sharing, arranged, point, imageScale);
+  if (!(imageScale > 0) || !(frame.length > 0)) return 0;
+  const StartSystem& start = startSystem(sharing);
+  alignWith(start, arranged, point, &frame);
+  Parameters target = parametersIn(frame, sharing, arranged, point);
+  scaleRaysLike(start.parameters, &target);
+  solvePaths(level, start, target, effort, ends);
+  int count = 0;
+  for (int i = 0; i < ends->count; ++i) {
+    const FocalPose pose = poseOf(solutionAt(ends->point[i]), frame, point);
+    if (std::all_of(rays, rays + kRays, [&](const RayMatch& ray) { return agrees(pose, ray, imageScale); }))
+      solutions[count++] = pose;
+  }
+  return count;
+}
+
+}  // namespace h51f
+}  // namespace hybridgv

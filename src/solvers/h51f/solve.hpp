@@ -1,0 +1,16 @@
+// H51f except for five rays of one centre, with all choices open.
+#pragma once
+
+#include "solvers/MinimalSolver.hpp"
+#include "solvers/h51f/solvePaths.hpp"
+
+namespace hybridgv {
+namespace h51f {
+
+// Writes the poses to `solutions` and returns their number; contract of MinimalSolver.hpp. `ends` tells whether the set of
+// complex solutions behind them is complete; it has no paths if the sample cannot be normalised.
+int solve(math::SimdLevel level, Effort effort, const solvers::RayMatch* rays, const solvers::PointMatch& point,
+          FocalPose* solutions, EndPoints* ends);
+
+}  // namespace h51f
+}  // namespace hybridgv

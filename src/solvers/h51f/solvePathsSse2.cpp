@@ -1,0 +1,12 @@
+#define HYBRIDGV_INSTRUCTION_SET sse2
+#include "solvers/h51f/PathSolver.hpp"
+
+namespace hybridgv {
+namespace h51f {
+
+void solvePathsSse2(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends) {
+  sse2::PathSolver(start, target).solve(effort, ends);
+}
+
+}  // namespace h51f
+}  // namespace hybridgv

@@ -1,0 +1,281 @@
+// H51f in the camera configurations [1] .. [4], at every instruction set of this processor.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "GoldenProblems.hpp"
+#include "H51fScenes.hpp"
+#include "hybridgv/hybrid_pose/methods.hpp"
+#include "solvers/h51f/solve.hpp"
+#include "solvers/solvers.hpp"
+
+namespace hybridgv {
+namespace test {
+namespace {
+
+using h51f::Effort;
+using h51f::EndPoints;
+using math::SimdLevel;
+
+constexpr double kRecovered = 1e-6;
+constexpr double kSmallResidual = 1e-5;  // [px]
+
+FocalPoses solve(const MinimalProblem& problem, SimdLevel level, Effort effort = Effort::Complete, EndPoints* ends = nullptr) {
+  EndPoints unused;
+  FocalPoses solutions(solvers::kMaxSolutions);
+  const int count = h51f::solve(level, effort, problem.rays.data(), problem.points[0], solutions.data(), ends ? ends : &unused);
+  solutions.resize(static_cast<std::size_t>(count));
+  return solutions;
+}
+
+// As the library calls it.
+FocalPoses solve(const MinimalProblem& problem) {
+  FocalPoses solutions(solvers::kMaxSolutions);
+  solutions.resize(static_cast<std::size_t>(solvers::h51f(problem.rays.data(), problem.points.data(), solutions.data())));
+  return solutions;
+}
+
+// The poses satisfy the equations and no pose is there twice.
+void expectValid(const MinimalProblem& problem, const FocalPoses& solutions) {
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    EXPECT_LT(largestResidual(problem, solutions[i], 1), kSmallResidual) << "f " << solutions[i].focalLength;
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT(poseDistance(solutions[i], solutions[j]), 1e-9);
+  }
+}
+
+std::vector<SimdLevel> supportedLevels() {
+  std::vector<SimdLevel> levels;
+  for (SimdLevel level : {SimdLevel::Sse2, SimdLevel::Avx2, SimdLevel::Avx512})
+    if (level <= math::supportedSimdLevel()) levels.push_back(level);
+  return levels;
+}
+
+class H51fLevels : public testing::TestWithParam<SimdLevel> {
+ protected:
+  // Counts how often the truth is found and how often the set is complete.
+  void run(const std::function<MinimalProblem(Random&)>& makeProblem, std::uint64_t count, std::uint64_t stream) {
+    found_ = complete_ = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      Random random(testSeed() + stream, i);
+      const MinimalProblem problem = makeProblem(random);
+      EndPoints ends;
+      const FocalPoses solutions = solve(problem, GetParam(), Effort::Complete, &ends);
+      expectValid(problem, solutions);
+      found_ += distanceToNearest(solutions, problem.truth) < kRecovered;
+      complete_ += ends.complete();
+    }
+  }
+  std::uint64_t found_ = 0, complete_ = 0;
+};
+
+INSTANTIATE_TEST_SUITE_P(, H51fLevels, testing::ValuesIn(supportedLevels()),
+                         [](const auto& info) { return math::toString(info.param); });
+
+TEST_P(H51fLevels, FindsTheTruthAndAllSolutions) {
+  constexpr std::uint64_t kCount = 150;
+  for (const RaysPerCamera& pattern : h51fPatterns()) {
+    run([&pattern](Random& random) { return makeMinimalProblem(random, pattern, 1); }, kCount, 0);
+    EXPECT_GE(found_, kCount - 1) << nameOf(pattern);
+    EXPECT_GE(complete_, kCount - 1) << nameOf(pattern);
+  }
+}
+
+TEST_P(H51fLevels, FindsTheTruthInOtherScenes) {
+  constexpr std::uint64_t kCount = 40;
+  const std::vector<std::function<MinimalProblem(Random&, const RaysPerCamera&)>> scenes = {
+      [](Random& random, const RaysPerCamera& pattern) { return makeRigProblem(random, pattern, 0.5); },
+      [](Random& random, const RaysPerCamera& pattern) { return makeRigProblem(random, pattern, 0.1); },
+      [](Random& random, const RaysPerCamera& pattern) { return makeSameSideProblem(random, pattern); },
+      [](Random& random, const RaysPerCamera& pattern) { return makePlanarProblem(random, pattern); },
+  };
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (const RaysPerCamera& pattern : h51fPatterns()) {
+      run([&](Random& random) { return scenes[i](random, pattern); }, kCount, 1 + i);
+      EXPECT_GE(found_, kCount - 1) << "scene " << i << ", " << nameOf(pattern);
+      EXPECT_GE(complete_, kCount - 2) << "scene " << i << ", " << nameOf(pattern);
+    }
+}
+
+// One image point at the principal point sends a known number of paths to infinity; the truth is found all the same.
+TEST_P(H51fLevels, SolvesImagePointsAtThePrincipalPoint) {
+  constexpr std::uint64_t kCount = 20;
+  for (const RaysPerCamera& pattern : h51fPatterns()) {
+    run(
+        [&pattern](Random& random) {
+          MinimalProblem problem = makeMinimalProblem(random, pattern, 1);
+          movePointToAxis(problem, random.uniform(10, 30));
+          return problem;
+        },
+        kCount, 10);
+    EXPECT_GE(found_, kCount - 1) << nameOf(pattern);
+    run(
+        [&pattern](Random& random) {
+          MinimalProblem problem = makeMinimalProblem(random, pattern, 1);
+          moveRayToAxis(problem, 1, random.uniform(10, 30));
+          return problem;
+        },
+        kCount, 11);
+    EXPECT_GE(found_, kCount - 1) << nameOf(pattern);
+  }
+}
+
+TEST_P(H51fLevels, OnePassMissesFew) {
+  constexpr std::uint64_t kCount = 150;
+  std::uint64_t found = 0;
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    Random random(testSeed() + 20, i);
+    const MinimalProblem problem = makeMinimalProblem(random, h51fPatterns()[i % 6], 1);
+    const FocalPoses solutions = solve(problem, GetParam(), Effort::OnePass);
+    expectValid(problem, solutions);
+    found += distanceToNearest(solutions, problem.truth) < kRecovered;
+  }
+  EXPECT_GE(found, kCount * 95 / 100);
+}
+
+TEST_P(H51fLevels, StopsOnDegenerateData) {
+  using Change = std::function<void(MinimalProblem&, Random&)>;
+  const std::vector<Change> changes = {
+      [](MinimalProblem& problem, Random&) { problem.rays[1] = problem.rays[0], problem.rays[1].camera = 7; },
+      [](MinimalProblem& problem, Random&) {  // a ray through the 3D point
+        problem.rays[0].direction = (problem.points[0].point - problem.rays[0].centre).normalized();
+        problem.rays[0].u = problem.points[0].u, problem.rays[0].v = problem.points[0].v;
+      },
+      [](MinimalProblem& problem, Random&) {
+        for (solvers::RayMatch& ray : problem.rays) ray.u = problem.points[0].u, ray.v = problem.points[0].v;
+      },
+      [](MinimalProblem& problem, Random&) {
+        for (solvers::RayMatch& ray : problem.rays) ray.direction = Eigen::Vector3d(0, 0, 1);
+      },
+      [](MinimalProblem& problem, Random& random) {  // collinear scene points
+        const Eigen::Vector3d origin = random.vector(-2, 2), direction = random.direction();
+        const auto point = [&]() -> Eigen::Vector3d { return origin + random.uniform(-3, 3) * direction; };
+        for (solvers::RayMatch& ray : problem.rays) ray = makeRayMatch(problem.truth, point(), ray.centre, ray.camera);
+        problem.points[0] = makePointMatch(problem.truth, point());
+      },
+      [](MinimalProblem& problem, Random&) {  // all image points at the principal point
+        for (solvers::RayMatch& ray : problem.rays) ray.u = ray.v = 0;
+        problem.points[0].u = problem.points[0].v = 0;
+      },
+      [](MinimalProblem& problem, Random&) { problem.points[0].point = problem.rays[0].centre; },
+      [](MinimalProblem& problem, Random&) {
+        for (solvers::RayMatch& ray : problem.rays) ray.direction.setZero();
+      },
+      [](MinimalProblem& problem, Random& random) {  // noise instead of data, on many scales
+        for (solvers::RayMatch& ray : problem.rays)
+          ray.u = std::exp(random.uniform(-20, 20)), ray.centre = std::exp(random.uniform(-20, 20)) * random.direction();
+      },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    for (std::uint64_t k = 0; k < 12; ++k) {
+      Random random(testSeed() + 30 + i, k);
+      MinimalProblem problem = makeMinimalProblem(random, h51fPatterns()[k % 6], 1);
+      changes[i](problem, random);
+      EndPoints ends;
+      const FocalPoses solutions = solve(problem, GetParam(), Effort::Complete, &ends);
+      for (const FocalPose& pose : solutions) {
+        EXPECT_TRUE(pose.rotation.allFinite() && pose.position.allFinite() && std::isfinite(pose.focalLength)) << i;
+        EXPECT_GT(pose.focalLength, 0) << i;
+      }
+      EXPECT_LE(ends.steps, h51f::kMaxSteps) << i;
+      EXPECT_LE(ends.accepted, ends.paths) << i;
+    }
+}
+
+TEST_P(H51fLevels, SameResultEveryTime) {
+  Random random(testSeed(), 40);
+  const MinimalProblem problem = makeMinimalProblem(random, {2, 2, 1}, 1);
+  const FocalPoses first = solve(problem, GetParam()), second = solve(problem, GetParam());
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(poseDistance(first[i], second[i]), 0);
+}
+
+class H51fPatterns : public testing::TestWithParam<RaysPerCamera> {};
+
+INSTANTIATE_TEST_SUITE_P(, H51fPatterns, testing::ValuesIn(h51fPatterns()), [](const auto& info) { return nameOf(info.param); });
+
+TEST_P(H51fPatterns, FindsAllRecordedSolutions) {
+  const std::vector<GoldenProblem> problems = readGoldenProblems("h51f_" + nameOf(GetParam()) + ".txt");
+  if (problems.empty()) GTEST_SKIP() << "no recorded problems in " << HYBRIDGV_GOLDEN_DIR;
+  for (const GoldenProblem& golden : problems) {
+    const FocalPoses solutions = solve(golden.problem);
+    expectValid(golden.problem, solutions);
+    for (const FocalPose& expected : golden.solutions) EXPECT_LT(distanceToNearest(solutions, expected), 1e-5);
+    EXPECT_EQ(solutions.size(), golden.solutions.size());
+  }
+}
+
+// Both lists hold the same poses.
+void expectEqual(const FocalPoses& a, const FocalPoses& b, double tolerance) {
+  EXPECT_EQ(a.size(), b.size());
+  for (const FocalPose& pose : a) EXPECT_LT(distanceToNearest(b, pose), tolerance);
+}
+
+TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    Random random(testSeed() + 50, i);
+    const MinimalProblem problem = makeMinimalProblem(random, GetParam(), 1);
+    const FocalPoses expected = solve(problem);
+
+    MinimalProblem reversed = problem;
+    std::reverse(reversed.rays.begin(), reversed.rays.end());
+    expectEqual(solve(reversed), expected, 1e-6);
+
+    MinimalProblem zoomed = problem;
+    const double zoom = std::exp(random.uniform(-7, 7));
+    for (solvers::RayMatch& ray : zoomed.rays) ray.u *= zoom, ray.v *= zoom;
+    zoomed.points[0].u *= zoom, zoomed.points[0].v *= zoom;
+    FocalPoses poses = solve(zoomed);
+    for (FocalPose& pose : poses) pose.focalLength /= zoom;
+    expectEqual(poses, expected, 1e-6);
+
+    MinimalProblem moved = problem;
+    const double scale = std::exp(random.uniform(-7, 7));
+    const Eigen::Matrix3d turn = random.rotation();
+    const Eigen::Vector3d shift = random.vector(-10, 10);
+    for (solvers::RayMatch& ray : moved.rays)
+      ray.centre = scale * (turn * ray.centre + shift), ray.direction = turn * ray.direction;
+    moved.points[0].point = scale * (turn * moved.points[0].point + shift);
+    poses = solve(moved);
+    for (FocalPose& pose : poses) {
+      expectValid(moved, {pose});
+      pose.rotation = turn.transpose() * pose.rotation;
+    }
+    expectEqual(poses, expected, 1e-6);
+  }
+}
+
+// Equal centres are recognised without camera numbers, and camera numbers without exactly equal centres.
+TEST_P(H51fPatterns, RecognisesSharedCentres) {
+  Random random(testSeed(), 60);
+  const MinimalProblem problem = makeMinimalProblem(random, GetParam(), 1);
+  const FocalPoses expected = solve(problem);
+  MinimalProblem unnumbered = problem, inexact = problem;
+  for (std::size_t j = 0; j < 5; ++j) {
+    unnumbered.rays[j].camera = static_cast<int>(j);
+    inexact.rays[j].centre += 1e-12 * random.direction();
+  }
+  expectEqual(solve(unnumbered), expected, 1e-9);
+  expectEqual(solve(inexact), expected, 1e-6);
+}
+
+TEST(H51f, FiveRaysOfOneCentreGoToTheirOwnSolver) {
+  Random random(testSeed(), 70);
+  MinimalProblem problem = makeMinimalProblem(random, {5}, 1);
+  const FocalPoses solutions = solve(problem);
+  expectValid(problem, solutions);
+  EXPECT_LT(distanceToNearest(solutions, problem.truth), kRecovered);
+  for (std::size_t j = 0; j < 5; ++j) problem.rays[j].camera = static_cast<int>(j);
+  expectEqual(solve(problem), solutions, 1e-12);
+}
+
+TEST(H51f, PublicFunctionReadsTheAdapter) {
+  Random random(testSeed(), 80);
+  const MinimalProblem problem = makeMinimalProblem(random, {2, 1, 1, 1}, 1);
+  const FocalPoses solutions = hybrid_pose::h51f(makeAdapter(problem));
+  expectEqual(solutions, solve(problem), 1e-9);
+  EXPECT_LT(distanceToNearest(solutions, problem.truth), kRecovered);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hybridgv
