@@ -8,9 +8,9 @@ namespace sfm {
 namespace {
 
 // The shortest records, one character per number and one blank after each.
-constexpr std::size_t kCameraBytes = 15 * 2;
-constexpr std::size_t kPointBytes = 7 * 2;
-constexpr std::size_t kViewBytes = 4 * 2;
+constexpr std::size_t kCameraBytes = std::size_t{15} * 2;
+constexpr std::size_t kPointBytes = std::size_t{7} * 2;
+constexpr std::size_t kViewBytes = std::size_t{4} * 2;
 
 Eigen::Vector3d readVector(TextScanner& in, const char* what) {
   const double x = in.number(what), y = in.number(what), z = in.number(what);

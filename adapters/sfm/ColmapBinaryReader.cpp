@@ -21,9 +21,9 @@ Eigen::Vector3d readVector(ByteScanner& in, const char* what) {
 // The sizes in bytes of the shortest records: what a declared count is checked against.
 constexpr std::size_t kCameraBytes = 4 + 4 + 8 + 8 + 3 * 8;
 constexpr std::size_t kImageBytes = 4 + 7 * 8 + 4 + 1 + 8;
-constexpr std::size_t kObservationBytes = 3 * 8;
+constexpr std::size_t kObservationBytes = std::size_t{3} * 8;
 constexpr std::size_t kPointBytes = 8 + 3 * 8 + 3 + 8 + 8;
-constexpr std::size_t kTrackElementBytes = 2 * 4;
+constexpr std::size_t kTrackElementBytes = std::size_t{2} * 4;
 
 void readCameras(const std::string& path, SparseModel& model, IdIndex& cameraIndex) {
   ByteScanner in(path);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "CheckArguments.hpp"
 #include "Triangulation.hpp"
@@ -58,11 +59,12 @@ struct MapViews {
 
 MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t query) {
   MapViews result;
+  std::unordered_set<std::size_t> done{query};
   for (const TrackElement& e : model.points[pointIndex].track) {
     if (e.image >= model.images.size() || e.observation >= model.images[e.image].observations.size())
       throwInvalid(element("points", pointIndex), "the track names an observation that does not exist");
     const Image& image = model.images[e.image];
-    if (e.image == query || !image.registered || !isFirstOfTrack(model.points[pointIndex], e.image, e.observation)) continue;
+    if (!done.insert(e.image).second || !image.registered) continue;
     const Camera& camera = cameraOf(model, e.image);
     const Observation& o = image.observations[e.observation];
     if (const std::optional<Eigen::Vector3d> point = undistort(camera, o.x, o.y)) {
@@ -86,7 +88,7 @@ Matches findMatches(const SparseModel& model, std::size_t query, const Localizat
     if (!imagePoint || !isFirstOfTrack(model.points[o.point], query, i)) continue;
     const MapViews map = viewsOf(model, o.point, query);
     if (map.views.empty()) continue;
-    if (map.views.size() >= 2 && largestParallax(map.views) >= minParallax) {
+    if (haveParallax(map.views, minParallax)) {
       const Triangulation result = triangulate(map.views);
       if (result.isInFront && result.largestError <= options.maxMapReprojectionErrorPx) {
         matches.points.push_back({*imagePoint, result.point, o.point});
@@ -128,7 +130,7 @@ LocalizationProblem toProblem(const SparseModel& model, const Matches& matches) 
   NoncentralHybridAdapter adapter(imagePoints2d2d, bearings, camIndices, centres, rotations, imagePoints2d3d, positions);
   adapter.setRigFocalLengths(focalLengths);
   const std::vector<bool> none2d2d(points2d2d.size()), none2d3d(points2d3d.size());
-  return {"", std::move(adapter), std::nullopt, std::move(rig), std::move(points2d2d), std::move(points2d3d), none2d2d, none2d3d};
+  return {"", adapter, std::nullopt, std::move(rig), std::move(points2d2d), std::move(points2d3d), none2d2d, none2d3d};
 }
 
 }  // namespace

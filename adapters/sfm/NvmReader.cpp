@@ -10,9 +10,9 @@ namespace sfm {
 namespace {
 
 // The shortest records, one character per word and one blank after each.
-constexpr std::size_t kCameraBytes = 11 * 2;
-constexpr std::size_t kPointBytes = 7 * 2;
-constexpr std::size_t kMeasurementBytes = 4 * 2;
+constexpr std::size_t kCameraBytes = std::size_t{11} * 2;
+constexpr std::size_t kPointBytes = std::size_t{7} * 2;
+constexpr std::size_t kMeasurementBytes = std::size_t{4} * 2;
 
 // Common intrinsics of all images: "FixedK fx cx fy cy" after the format's name.
 struct FixedCalibration {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hybridgv {
 namespace sfm {
@@ -70,14 +71,15 @@ Triangulation triangulate(const std::vector<View>& views) {
   return result;
 }
 
-double largestParallax(const std::vector<View>& views) {
-  double result = 0;
-  for (std::size_t i = 0; i < views.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Eigen::Vector3d a = views[i].rotation * views[i].direction(), b = views[j].rotation * views[j].direction();
-      result = std::max(result, std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-  return result;
+bool haveParallax(const std::vector<View>& views, double minAngle) {
+  std::vector<Eigen::Vector3d> directions;
+  for (const View& view : views) {
+    const Eigen::Vector3d a = view.rotation * view.direction();
+    for (const Eigen::Vector3d& b : directions)
+      if (std::atan2(a.cross(b).norm(), a.dot(b)) >= minAngle) return true;
+    directions.push_back(a);
+  }
+  return false;
 }
 
 }  // namespace sfm

@@ -26,8 +26,8 @@ struct Triangulation {
 // Minimises the sum of squared reprojection errors of two or more views: Gauss-Newton from the point nearest to all rays.
 Triangulation triangulate(const std::vector<View>& views);
 
-// The largest angle [rad] between the viewing rays of two views.
-double largestParallax(const std::vector<View>& views);
+// Do the viewing rays of any two views meet at `minAngle` [rad] or a larger angle?
+bool haveParallax(const std::vector<View>& views, double minAngle);
 
 }  // namespace sfm
 }  // namespace hybridgv

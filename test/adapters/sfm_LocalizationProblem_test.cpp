@@ -22,9 +22,9 @@ using Eigen::Vector3d;
 const std::vector<CameraModel> kAllModels{CameraModel::SimplePinhole, CameraModel::Pinhole, CameraModel::SimpleRadial,
                                           CameraModel::Radial,        CameraModel::OpenCV,  CameraModel::NvmRadial};
 
-SparseModel makeModel(std::uint64_t stream, double visibility = 0.4) {
+SparseModel makeModel(std::uint64_t stream, std::size_t points = 150) {
   test::Random random(test::testSeed(), stream);
-  return test::makeScene(random, 8, 150, visibility, kAllModels);
+  return test::makeScene(random, 8, points, 0.4, kAllModels);
 }
 
 double sampsonError(const LocalizationProblem& problem, std::size_t i) {
@@ -210,7 +210,7 @@ TEST(LocalizationProblem, RejectsBadArguments) {
 class Outliers : public ::testing::TestWithParam<double> {};
 
 TEST_P(Outliers, AreTheShareAskedForAndNoneKeepsItsImagePoint) {
-  const LocalizationProblem problem = makeLocalizationProblem(makeModel(6, 0.3), 0);
+  const LocalizationProblem problem = makeLocalizationProblem(makeModel(6, 400), 0);
   const LocalizationProblem damaged = injectOutliers(problem, GetParam(), 7);
   const auto check = [&](std::size_t count, const std::vector<bool>& flags, auto getImagePoint) {
     ASSERT_EQ(flags.size(), count);
