@@ -14,8 +14,9 @@
 //
 //     det M(c, s) is a binary form of degree exactly 9,
 //
-// whose real roots give x from the null vector of M. If the image point p_k is the principal point, then f3 = 0 is one of the
-// pencil's matrices. It solves everything, belongs to f = 0, and is a double root, which is divided out (degree 7).
+// whose real roots give x from the null vector of M. (Null space: EpipolarNullSpace; the form: OneFocalPencil.) If the image
+// point p_k is the principal point, then f3 = 0 is one of the pencil's matrices. It solves everything, belongs to f = 0, and is a
+// double root, which is divided out (degree 7).
 #pragma once
 
 #include <Eigen/Core>

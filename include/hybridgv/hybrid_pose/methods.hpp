@@ -65,7 +65,7 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// Configuration [5], all five rays from one rig camera: at most 9 poses (1.6 on average). The line of sight from the rig camera
 /// to X acts as a sixth ray; the problem is relative_pose::sixpt_onefocal, and X fixes the length of the baseline. Method: the
 /// real roots of a binary form of degree 9. Cost: about a quarter of opengv::absolute_pose::gp3p (4 microseconds where that takes
-/// 16). Poses with a focal length below 1e-4 times the largest image coordinate are left out. Degenerate, nothing is returned: X
+/// 16). Poses with a focal length below 5e-4 times the largest image coordinate are left out. Degenerate, nothing is returned: X
 /// and the five points in one plane (then the focal length is not determined), the query at the rig camera's centre, X there or
 /// on the line through both centres, fewer than six independent constraints (repeated correspondences, all image points equal,
 /// ..), two image points exactly at the principal point.

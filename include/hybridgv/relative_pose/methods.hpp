@@ -27,7 +27,7 @@ namespace relative_pose {
 /// \return At most 9 poses (1.6 on average for the data of a rig camera and a query that see the same scene), each with
 ///         |position - c| = 1 (one unit of the rig's frame, whatever that is), the sign chosen so that all six rays meet in front
 ///         of both cameras. Poses for which a point would lie behind a camera are left out, as are those with a focal length
-///         below 1e-4 times the largest image coordinate. An empty list if there is no such pose or the data are degenerate.
+///         below 5e-4 times the largest image coordinate. An empty list if there is no such pose or the data are degenerate.
 ///
 /// Degenerate, nothing is returned: the six points in the rig lie in one plane (then the focal length is not determined), the
 /// query lies at c (no baseline), fewer than six independent constraints (repeated correspondences, all image points equal, ..),
