@@ -11,36 +11,40 @@ void throwInvalid(const std::string& argument, const std::string& reason) {
   throw std::invalid_argument("hybridgv: " + argument + ": " + reason);
 }
 
-static void checkAllDifferent(const std::string& name, const std::vector<int>& indices, int needed) {
+// Names are put together only where an error is reported: these functions run once per minimal sample.
+static void checkAllDifferent(const char* name, const char* part, const std::vector<int>& indices, int needed) {
   const auto end = indices.begin() + needed;
+  const auto refuse = [&](int index) {
+    throwInvalid(std::string(name) + part, "index " + std::to_string(index) + " is repeated");
+  };
   if (needed <= 8) {  // a minimal sample: no allocation
     for (auto i = indices.begin(); i != end; ++i)
-      if (std::find(indices.begin(), i, *i) != i) throwInvalid(name, "index " + std::to_string(*i) + " is repeated");
+      if (std::find(indices.begin(), i, *i) != i) refuse(*i);
     return;
   }
   std::vector<int> sorted(indices.begin(), end);
   std::sort(sorted.begin(), sorted.end());
   const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
-  if (repeated != sorted.end()) throwInvalid(name, "index " + std::to_string(*repeated) + " is repeated");
+  if (repeated != sorted.end()) refuse(*repeated);
 }
 
-void checkIndices(const std::string& name, const std::vector<int>& indices, int needed, std::size_t available) {
+void checkIndices(const char* name, const char* part, const std::vector<int>& indices, int needed, std::size_t available) {
   if (indices.size() < static_cast<std::size_t>(needed))
-    throwInvalid(name, "needs " + std::to_string(needed) + " indices, got " + std::to_string(indices.size()));
+    throwInvalid(std::string(name) + part, "needs " + std::to_string(needed) + " indices, got " + std::to_string(indices.size()));
   for (int i = 0; i < needed; ++i) {
     const int index = indices[static_cast<std::size_t>(i)];
     if (index < 0 || static_cast<std::size_t>(index) >= available)
-      throwInvalid(name, "index " + std::to_string(index) + " is outside the " + std::to_string(available) +
-                             " correspondences of the adapter");
+      throwInvalid(std::string(name) + part, "index " + std::to_string(index) + " is outside the " + std::to_string(available) +
+                                                 " correspondences of the adapter");
   }
-  checkAllDifferent(name, indices, needed);
+  checkAllDifferent(name, part, indices, needed);
 }
 
-void checkMultiIndices(const std::string& name, const std::vector<std::vector<int>>& indices, int rays, int points,
+void checkMultiIndices(const char* name, const std::vector<std::vector<int>>& indices, int rays, int points,
                        const hybrid_pose::HybridAdapterBase& adapter) {
   if (indices.size() != 2) throwInvalid(name, "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
-  checkIndices(name + "[0] (2D-2D)", indices[0], rays, adapter.getNumberCorrespondences2d2d());
-  checkIndices(name + "[1] (2D-3D)", indices[1], points, adapter.getNumberCorrespondences2d3d());
+  checkIndices(name, "[0] (2D-2D)", indices[0], rays, adapter.getNumberCorrespondences2d2d());
+  checkIndices(name, "[1] (2D-3D)", indices[1], points, adapter.getNumberCorrespondences2d3d());
 }
 
 void checkPose(const std::string& name, const FocalPose& pose) {

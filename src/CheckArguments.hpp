@@ -12,11 +12,12 @@ namespace hybridgv {
 
 [[noreturn]] void throwInvalid(const std::string& argument, const std::string& reason);
 
-// `indices` must have at least `needed` entries (the first `needed` are used), different and below `available`.
-void checkIndices(const std::string& name, const std::vector<int>& indices, int needed, std::size_t available);
+// `indices` must have at least `needed` entries (the first `needed` are used), different and below `available`. Errors call them
+// `name` followed by `part`.
+void checkIndices(const char* name, const char* part, const std::vector<int>& indices, int needed, std::size_t available);
 
 // Multi-indices {2D-2D, 2D-3D}.
-void checkMultiIndices(const std::string& name, const std::vector<std::vector<int>>& indices, int rays, int points,
+void checkMultiIndices(const char* name, const std::vector<std::vector<int>>& indices, int rays, int points,
                        const hybrid_pose::HybridAdapterBase& adapter);
 
 // Throws unless the pose is finite with a rotation matrix and a positive focal length.

@@ -6,17 +6,17 @@
 namespace hybridgv {
 namespace absolute_pose {
 
-using solvers::solveSample;
+using solvers::readPoints;
 
 static const std::vector<int> kFirstFour{0, 1, 2, 3};
 
 FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  return solveSample(&solvers::p4pf, 0, 4, 6, adapter, {{}, indices});
+  return readPoints(4, adapter, indices).solve(&solvers::p4pf, 6);
 }
 FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter) { return p4pf(adapter, kFirstFour); }
 
 FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  return solveSample(&solvers::p35pf, 0, 4, 10, adapter, {{}, indices});
+  return readPoints(4, adapter, indices).solve(&solvers::p35pf, 10);
 }
 FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter) { return p35pf(adapter, kFirstFour); }
 

@@ -1,5 +1,7 @@
 #include "hybridgv/hybrid_pose/methods.hpp"
 
+#include <algorithm>
+
 #include "solvers/solveSample.hpp"
 #include "solvers/solvers.hpp"
 
@@ -20,7 +22,10 @@ FocalPoses h32f(const HybridAdapterBase& adapter, const std::vector<std::vector<
 FocalPoses h32f(const HybridAdapterBase& adapter) { return h32f(adapter, firstIndices(3, 2)); }
 
 FocalPoses h51f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
-  return solveSample(&solvers::h51f, 5, 1, 56, adapter, indices);
+  const solvers::Sample sample = solvers::readSample(5, 1, adapter, indices);
+  const bool oneCamera = std::all_of(sample.rays.begin() + 1, sample.rays.begin() + 5,
+                                     [&](const solvers::RayMatch& ray) { return ray.camera == sample.rays[0].camera; });
+  return sample.solve(&solvers::h51f, oneCamera ? 9 : 56);  // less room for the fastest case
 }
 FocalPoses h51f(const HybridAdapterBase& adapter) { return h51f(adapter, firstIndices(5, 1)); }
 

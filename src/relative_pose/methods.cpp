@@ -8,12 +8,12 @@ namespace hybridgv {
 namespace relative_pose {
 
 FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  checkIndices("indices", indices, 6, adapter.getNumberCorrespondences2d2d());
+  const solvers::Sample sample = solvers::readRays(6, adapter, indices);
   for (std::size_t i = 1; i < 6; ++i)
-    if (adapter.getCamIndex(static_cast<std::size_t>(indices[i])) != adapter.getCamIndex(static_cast<std::size_t>(indices[0])))
+    if (sample.rays[i].camera != sample.rays[0].camera)
       throwInvalid("indices", "correspondences " + std::to_string(indices[0]) + " and " + std::to_string(indices[i]) +
                                   " belong to different rig cameras; sixpt_onefocal needs six rays of one camera");
-  return solvers::solveSample(&solvers::sixptOnefocal, 6, 0, 9, adapter, {indices, {}});
+  return sample.solve(&solvers::sixptOnefocal, 9);
 }
 FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter) { return sixpt_onefocal(adapter, {0, 1, 2, 3, 4, 5}); }
 

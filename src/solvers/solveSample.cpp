@@ -1,6 +1,5 @@
 #include "solvers/solveSample.hpp"
 
-#include <array>
 #include <numeric>
 
 #include "CheckArguments.hpp"
@@ -8,18 +7,42 @@
 namespace hybridgv {
 namespace solvers {
 
-constexpr int kMaxSampleSize = 6;
-
-FocalPoses solveSample(SolveFunction solve, int rays, int points, int maxSolutions, const hybrid_pose::HybridAdapterBase& adapter,
-                       const std::vector<std::vector<int>>& indices) {
-  checkMultiIndices("indices", indices, rays, points, adapter);
-  std::array<RayMatch, kMaxSampleSize> rayMatches;
-  std::array<PointMatch, kMaxSampleSize> pointMatches;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(rays); ++i) rayMatches[i] = readRay(adapter, indices[0][i]);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(points); ++i) pointMatches[i] = readPoint(adapter, indices[1][i]);
+FocalPoses Sample::solve(SolveFunction solver, int maxSolutions) const {
   FocalPoses solutions(static_cast<std::size_t>(maxSolutions));
-  solutions.resize(static_cast<std::size_t>(solve(rayMatches.data(), pointMatches.data(), solutions.data())));
+  solutions.resize(static_cast<std::size_t>(solver(rays.data(), points.data(), solutions.data())));
   return solutions;
+}
+
+static void fillRays(int count, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices, Sample& sample) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sample.rays[i] = readRay(adapter, indices[i]);
+}
+
+static void fillPoints(int count, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices,
+                       Sample& sample) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sample.points[i] = readPoint(adapter, indices[i]);
+}
+
+Sample readSample(int rays, int points, const hybrid_pose::HybridAdapterBase& adapter,
+                  const std::vector<std::vector<int>>& indices) {
+  checkMultiIndices("indices", indices, rays, points, adapter);
+  Sample sample;
+  fillRays(rays, adapter, indices[0], sample);
+  fillPoints(points, adapter, indices[1], sample);
+  return sample;
+}
+
+Sample readRays(int rays, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
+  checkIndices("indices", "", indices, rays, adapter.getNumberCorrespondences2d2d());
+  Sample sample;
+  fillRays(rays, adapter, indices, sample);
+  return sample;
+}
+
+Sample readPoints(int points, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
+  checkIndices("indices", "", indices, points, adapter.getNumberCorrespondences2d3d());
+  Sample sample;
+  fillPoints(points, adapter, indices, sample);
+  return sample;
 }
 
 std::vector<std::vector<int>> firstIndices(int rays, int points) {
