@@ -8,10 +8,11 @@
 // are one constant matrix times the cyclically shifted samples. By Descartes' rule the number of sign variations of b bounds the
 // roots of the arc: none, one simple root (refined by a bracketed Newton iteration), or several (the arc is halved).
 //
-// Rounding makes the samples uncertain by about tau = 1e-12 max|p_j|. Double roots, whose sign change that can hide, are reported
-// wherever the form comes within tau of zero: a root of multiplicity m is returned as one or more directions within about
-// (1e-12)^(1/m) of it. Roots closer to each other than about 1e-5 may be returned once. Whoever needs more digits refines the
-// result with the equations behind the form.
+// Where the form is small all along a piece of an arc, its coefficients are inaccurate relative to their size: such a piece that
+// may contain a root is sampled anew, at directions of its own. What remains uncertain is at the level tau = 1e-12 max|p_j| of
+// rounding errors. Double roots, whose sign change that can hide, are reported wherever the form comes within tau of zero: a root
+// of multiplicity m is returned as one or more directions near it. Whoever needs more digits refines the result with the
+// equations behind the form.
 //
 // No allocation; the work is bounded for any input. A form that is zero everywhere, or whose samples are NaN, has no roots here.
 #pragma once
@@ -107,24 +108,32 @@ class BinaryFormRoots {
     double c0, s0, c1, s1;
     int depth;
   };
-  struct Output {
+  template <class Sample>
+  struct Search {
+    const Sample& sample;
     Direction* roots;
     int count;
-    void add(double c, double s) {
-      if (count == kMaxRoots) return;
-      const double scale = 1 / std::sqrt(c * c + s * s);
-      roots[count++] = {c * scale, s * scale};
-    }
+    int samplings;  // how often the form may still be sampled
+
+    void add(double c, double s);
+    void arcs(const double* p, const double* c, const double* s, int arcCount, int level);
+    void arc(Piece& arc, double largest, int level);
+    void anew(const Piece& piece, int level);
   };
+  // Uncertainty of the samples, relative to the largest.
+  static constexpr double kTau = 1e-12;
   // 2^-14 of an arc is the shortest piece.
   static constexpr int kMaxDepth = 14;
+  // A piece is sampled anew where the form is smaller than this share of the largest sample.
+  static constexpr double kFaint = 1e-7;
+  static constexpr int kMaxLevel = 3;
+  static constexpr int kMaxSamplings = 3 * D;
 
   static double secondSmallest(const double* p);
   static void spread(const double* p, double smallToLarge, double* c, double* s);
-  static void searchArcs(const double* p, const double* c, const double* s, Output& output);
-  static void searchArc(Piece& arc, double tau, Output& output);
   static int variations(const double* b);
   static int smallest(const double* b);
+  static double largest(const double* b);
   static void halve(const Piece& piece, Piece& left, Piece& right);
   static double simpleRoot(const double* b, bool& reversed);
 };
@@ -137,13 +146,13 @@ int BinaryFormRoots<D>::findSampled(const Sample& sample, Direction* roots) {
   const Tables& tables = Tables::get();
   double p[kPadded];
   sample(tables.c, tables.s, p);
-  Output output{roots, 0};
+  Search<Sample> search{sample, roots, 0, kMaxSamplings};
   double largest = 0;
   for (int j = 0; j < kSamples; ++j) largest = std::max(largest, std::abs(p[j]));
   const double ratio = secondSmallest(p) / largest;
   if (!(ratio < 1e-4)) {
-    searchArcs(p, tables.c, tables.s, output);
-    return output.count;
+    search.arcs(p, tables.c, tables.s, kSamples, 0);
+    return search.count;
   }
   double c[kPadded], s[kPadded], length[kPadded];
   spread(p, ratio, c, s);
@@ -156,8 +165,8 @@ int BinaryFormRoots<D>::findSampled(const Sample& sample, Direction* roots) {
     for (int i = 0; i < D; ++i) p[j] *= length[j];
     c[j] *= length[j], s[j] *= length[j];
   }
-  searchArcs(p, c, s, output);
-  return output.count;
+  search.arcs(p, c, s, kSamples, 0);
+  return search.count;
 }
 
 template <int D>
@@ -192,10 +201,45 @@ void BinaryFormRoots<D>::spread(const double* p, double smallToLarge, double* c,
   }
 }
 
-// p(v) at D+1 directions v = M (cos psi_j, sin psi_j), M any linear map: the arcs between neighbours are those of the samples'
-// own.
 template <int D>
-void BinaryFormRoots<D>::searchArcs(const double* p, const double* c, const double* s, Output& output) {
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::add(double c, double s) {
+  if (count == kMaxRoots) return;
+  const double scale = 1 / std::sqrt(c * c + s * s);
+  roots[count++] = {c * scale, s * scale};
+}
+
+// Samples the form at D+1 directions v = alpha v0 + beta v1 of which the first few lie on the piece from v0 to v1: a linear map
+// takes the arc from psi_0 to psi_kArcs to the piece.
+template <int D>
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
+  const Tables& tables = Tables::get();
+  constexpr int kArcs = kSamples / 2;
+  --samplings;
+  const double cEnd = tables.c[kArcs], sEnd = tables.s[kArcs];
+  double c[kPadded], s[kPadded], unitC[kPadded], unitS[kPadded], length[kPadded], p[kPadded];
+  for (int j = 0; j < kPadded; ++j) {
+    const double beta = tables.s[j] / sEnd, alpha = tables.c[j] - tables.s[j] * cEnd / sEnd;
+    c[j] = alpha * piece.c0 + beta * piece.c1, s[j] = alpha * piece.s0 + beta * piece.s1;
+    length[j] = std::sqrt(c[j] * c[j] + s[j] * s[j]);
+    unitC[j] = c[j] / length[j], unitS[j] = s[j] / length[j];
+  }
+  sample(unitC, unitS, p);
+  for (int j = 0; j < kSamples; ++j)
+    for (int i = 0; i < D; ++i) p[j] *= length[j];
+  const int before = count;
+  arcs(p, c, s, kArcs, level + 1);
+  if (count == before) {
+    const int i = smallest(piece.b);
+    add((D - i) * piece.c0 + i * piece.c1, (D - i) * piece.s0 + i * piece.s1);
+  }
+}
+
+// The samples p_j at v_j = (c_j, s_j) = M (cos psi_j, sin psi_j), M any linear map; searches the first `arcCount` arcs.
+template <int D>
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, const double* s, int arcCount, int level) {
   const Tables& tables = Tables::get();
   constexpr double kWrap = D % 2 ? -1 : 1;  // p(-v) / p(v)
   double q[3 * kSamples];                   // q[kSamples + j] = p_j, also beyond the half circle
@@ -205,7 +249,7 @@ void BinaryFormRoots<D>::searchArcs(const double* p, const double* c, const doub
     q[j] = q[2 * kSamples + j] = kWrap * p[j];
     largest = std::max(largest, std::abs(p[j]));
   }
-  const double tau = 1e-12 * largest;
+  const double tau = kTau * largest;
 
   double b[D + 1][kPadded];  // column j: coefficients of the arc from sample j to j+1
   double low[kPadded], high[kPadded];
@@ -234,20 +278,22 @@ void BinaryFormRoots<D>::searchArcs(const double* p, const double* c, const doub
       high[j] = b[i][j] > high[j] ? b[i][j] : high[j];
     }
 
-  for (int j = 0; j < kSamples; ++j) {
+  for (int j = 0; j < arcCount; ++j) {
     if (low[j] >= tau || high[j] <= -tau) continue;  // no root
     Piece arc;
     for (int i = 0; i <= D; ++i) arc.b[i] = b[i][j];
     const int next = j + 1 < kSamples ? j + 1 : 0;
     const double sign = next ? 1 : -1;
     arc.c0 = c[j], arc.s0 = s[j], arc.c1 = sign * c[next], arc.s1 = sign * s[next], arc.depth = 0;
-    searchArc(arc, tau, output);
+    this->arc(arc, largest, level);
   }
 }
 
 template <int D>
-void BinaryFormRoots<D>::searchArc(Piece& arc, double tau, Output& output) {
-  if (variations(arc.b) == 0 && std::abs(arc.b[smallest(arc.b)]) < tau) {
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::arc(Piece& arc, double largestSample, int level) {
+  const double tau = kTau * largestSample, faint = level < kMaxLevel ? kFaint * largestSample : 0;
+  if (variations(arc.b) == 0 && largest(arc.b) >= faint) {
     // Perhaps a double root that rounding has lifted off zero: lower the form by the uncertainty.
     double sum = 0;
     for (double b : arc.b) sum += b;
@@ -260,24 +306,25 @@ void BinaryFormRoots<D>::searchArc(Piece& arc, double tau, Output& output) {
   while (size > 0) {
     const Piece piece = stack[--size];
     const int changes = variations(piece.b);
-    if (changes <= 1 || piece.depth == kMaxDepth) {
+    const int least = smallest(piece.b);
+    if (changes == 0 && std::abs(piece.b[least]) >= tau) continue;
+    if (largest(piece.b) < faint && samplings > 0) {
+      anew(piece, level);
+    } else if (changes == 1) {
       bool reversed = false;
-      if (changes == 1) {
-        const double t = simpleRoot(piece.b, reversed);
-        if (reversed)
-          output.add(t * piece.c0 + piece.c1, t * piece.s0 + piece.s1);
-        else
-          output.add(piece.c0 + t * piece.c1, piece.s0 + t * piece.s1);
-      } else if (changes > 1) {
-        output.add(piece.c0 + piece.c1, piece.s0 + piece.s1);
-      } else if (piece.depth > 0) {
-        const int i = smallest(piece.b);
-        if (std::abs(piece.b[i]) < tau) output.add((D - i) * piece.c0 + i * piece.c1, (D - i) * piece.s0 + i * piece.s1);
-      }
-      continue;
+      const double t = simpleRoot(piece.b, reversed);
+      if (reversed)
+        add(t * piece.c0 + piece.c1, t * piece.s0 + piece.s1);
+      else
+        add(piece.c0 + t * piece.c1, piece.s0 + t * piece.s1);
+    } else if (changes == 0) {
+      if (piece.depth > 0) add((D - least) * piece.c0 + least * piece.c1, (D - least) * piece.s0 + least * piece.s1);
+    } else if (piece.depth == kMaxDepth) {
+      add(piece.c0 + piece.c1, piece.s0 + piece.s1);
+    } else {
+      halve(piece, stack[size + 1], stack[size]);
+      size += 2;
     }
-    halve(piece, stack[size + 1], stack[size]);
-    size += 2;
   }
 }
 
@@ -299,6 +346,13 @@ int BinaryFormRoots<D>::smallest(const double* b) {
   int best = 0;
   for (int i = 1; i <= D; ++i)
     if (std::abs(b[i]) < std::abs(b[best])) best = i;
+  return best;
+}
+
+template <int D>
+double BinaryFormRoots<D>::largest(const double* b) {
+  double best = 0;
+  for (int i = 0; i <= D; ++i) best = std::max(best, std::abs(b[i]));
   return best;
 }
 

@@ -24,6 +24,10 @@ inline Complex operator*(Complex a, double b) { return {a.re * b, a.im * b}; }
 inline Complex operator*(double a, Complex b) { return b * a; }
 inline Complex operator-(Complex a) { return {-a.re, -a.im}; }
 inline double squaredNorm(Complex a) { return a.re * a.re + a.im * a.im; }
+inline Complex operator/(Complex a, Complex b) {
+  const double scale = 1 / squaredNorm(b);
+  return {(a.re * b.re + a.im * b.im) * scale, (a.im * b.re - a.re * b.im) * scale};
+}
 
 // A quantity in the image plane, x + i y. Its coordinates are doubles, or Pairs, or (where a parameter of the problem is complex)
 // complex numbers themselves; then every formula is continued analytically, without conjugation.

@@ -75,6 +75,7 @@ inline bool isFrontoParallel(const ThreePointFrame& frame, double side) {
 // `constraint`(FrontoParallelPoint) -> Row; an equation with one real part has the other equal to 0.
 template <class Constraint>
 bool refineFrontoParallel(FrontoParallelPoint& point, const ThreePointFrame& frame, double side, const Constraint& constraint) {
+  double last = 1e300;
   for (int iteration = 0; iteration < 12; ++iteration) {
     if (!point.update(frame, side)) return false;
     const FrontoParallelPoint::Row e = point.threePoints, g = constraint(point);
@@ -85,8 +86,9 @@ bool refineFrontoParallel(FrontoParallelPoint& point, const ThreePointFrame& fra
     const Eigen::Vector3d step = -normal.inverse() * (jacobian.transpose() * value);
     if (!step.allFinite()) return false;
     point.u += step[0], point.v += step[1], point.d += step[2];
-    if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) / (1 + std::abs(point.d)) < 1e-12)
-      return point.update(frame, side);
+    const double length = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) / (1 + std::abs(point.d));
+    if (length < 1e-9 || (length < 1e-7 && length > last / 2)) return point.update(frame, side);
+    last = length;
   }
   return false;
 }

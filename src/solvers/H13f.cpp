@@ -26,43 +26,24 @@ class RayEquation {
   static constexpr int kDegree = 12;
 
   RayEquation(const ThreePointFrame& frame, const RayMatch& ray)
-      : frame_(frame), p_(frame.image(ray.u, ray.v)), difference_(frame.p3 - p_), q_(frame.direction(ray.direction)) {
+      : frame_(frame),
+        p_(frame.image(ray.u, ray.v)),
+        difference_(frame.p3 - p_),
+        product_(frame, difference_),
+        q_(frame.direction(ray.direction)) {
     origin_ = frame.fromX3(ray.centre);
     c_ = origin_ - q_.dot(origin_) * q_;
     m_ = q_.cross(c_);
     area_ = im(frame.p3, p_);
-    k11_ = im(difference_, frame.A11 - frame.p3), k21_ = im(difference_, frame.A21);
-    k1_ = im(difference_, frame.D1), k2_ = im(difference_, frame.D2);
-    triangle_ = im(frame.D2, frame.D1);
   }
 
   double product(const Sheets& at, const Sheet<Pair>& sheet) const {
-    const Along along(*this, at);
-    const Pair n3 = sheet.n3();
-    const Pair K = im(difference_, sheet.zr) - area_;
-    const Pair odd = m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (along.qr * K + along.qp * im(difference_, sheet.zf));
-    const Pair even = along.mr * (sheet.R - sheet.S - re(p_, sheet.zr)) - along.mp * re(p_, sheet.zf) +
-                      q_[2] * (sheet.delta * (re(difference_, sheet.zf) + n3 * K));
-    const Pair factor = (1 - n3 * n3) * (odd * odd) - even * even;
+    const Pair factor = signProduct(at, sheet);
     const double w = at.w2 * at.w2;
     return (w * factor[0]) * (w * factor[1]);
   }
-
   double norm(const Sheets& at, const Sheet<Complex>& sheet) const {
-    const Along along(*this, at);
-    // n3 delta K modulo W(eta), without the division by S
-    const Planar<Complex> y = (at.c * frame_.A21 + at.s * (frame_.p3 - frame_.A11)) + sheet.eta * frame_.D2;
-    const Complex X =
-        (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) + k2_ * re(sheet.zr, y)) * (-1 / triangle_);
-    const Complex K = im(difference_, sheet.zr) - area_;
-    const Complex odd =
-        m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (along.qr * K + along.qp * im(difference_, sheet.zf));
-    const Complex oddN3 =
-        m_[2] * (re(p_, sheet.zr) - sheet.R) + along.qp * (sheet.delta * re(difference_, sheet.zr)) + along.qr * X;
-    const Complex even = along.mr * (sheet.R - sheet.S - re(p_, sheet.zr)) - along.mp * re(p_, sheet.zf) +
-                         q_[2] * (sheet.delta * re(difference_, sheet.zf) + X);
-    const double w = at.w2 * at.w2;
-    return squaredNorm(w * (odd * odd - oddN3 * oddN3 - even * even));
+    return squaredNorm((at.w2 * at.w2) * signProduct(at, sheet));
   }
 
   Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double rho) const {
@@ -119,12 +100,28 @@ class RayEquation {
           mp(at.c * equation.m_[1] - at.s * equation.m_[0]) {}
   };
 
+  // The product over both signs of rho.
+  template <class T>
+  T signProduct(const Sheets& at, const Sheet<T>& sheet) const {
+    const Along along(*this, at);
+    const T K = im(difference_, sheet.zr) - area_;
+    const T odd = m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (along.qr * K + along.qp * im(difference_, sheet.zf));
+    const T n3DeltaK = product_.valid ? product_.evaluate(at, sheet) : sheet.n3() * sheet.delta * K;
+    const T oddN3 = product_.valid ? m_[2] * (re(p_, sheet.zr) - sheet.R) + sheet.delta * (along.qp * re(difference_, sheet.zr)) +
+                                         along.qr * n3DeltaK
+                                   : sheet.n3() * odd;
+    const T even = along.mr * (sheet.R - sheet.S - re(p_, sheet.zr)) - along.mp * re(p_, sheet.zf) +
+                   q_[2] * (sheet.delta * re(difference_, sheet.zf) + n3DeltaK);
+    return odd * odd - oddN3 * oddN3 - even * even;
+  }
+
   const ThreePointFrame& frame_;
   ImagePoint p_, difference_;
+  NormalProduct product_;
   Eigen::Vector3d q_;
   Eigen::Vector3d origin_, c_;  // from X3: the ray's centre, and its point nearest to X3
   Eigen::Vector3d m_;
-  double area_, k11_, k21_, k1_, k2_, triangle_;
+  double area_;
 };
 
 }  // namespace

@@ -25,26 +25,19 @@ class NormalEquation {
   static constexpr int kDegree = 6;
 
   NormalEquation(const ThreePointFrame& frame, const PointMatch& match)
-      : frame_(frame), p_(frame.image(match.u, match.v)), difference_(frame.p3 - p_), y_(frame.fromX3(match.point)) {
+      : frame_(frame),
+        p_(frame.image(match.u, match.v)),
+        difference_(frame.p3 - p_),
+        product_(frame, difference_),
+        y_(frame.fromX3(match.point)) {
     area_ = im(frame.p3, p_);
-    k11_ = im(difference_, frame.A11 - frame.p3), k21_ = im(difference_, frame.A21);
-    k1_ = im(difference_, frame.D1), k2_ = im(difference_, frame.D2);
-    triangle_ = im(frame.D2, frame.D1);
   }
 
   double product(const Sheets& at, const Sheet<Pair>& sheet) const {
-    const Pair K = im(difference_, sheet.zr) - area_;
-    const Pair value = linearPart(at, sheet) - sheet.delta * (re(difference_, sheet.zf) + sheet.n3() * K);
+    const Pair value = equation(at, sheet);
     return (at.w2 * value[0]) * (at.w2 * value[1]);
   }
-
-  double norm(const Sheets& at, const Sheet<Complex>& sheet) const {
-    // n3 delta K modulo W(eta), without the division by S
-    const Planar<Complex> y = (at.c * frame_.A21 + at.s * (frame_.p3 - frame_.A11)) + sheet.eta * frame_.D2;
-    const Complex X =
-        (re(frame_.D1, sheet.zr) * (at.c * k11_ + at.s * k21_ + k1_ * sheet.eta) + k2_ * re(sheet.zr, y)) * (-1 / triangle_);
-    return squaredNorm(at.w2 * (linearPart(at, sheet) - sheet.delta * re(difference_, sheet.zf) - X));
-  }
+  double norm(const Sheets& at, const Sheet<Complex>& sheet) const { return squaredNorm(at.w2 * equation(at, sheet)); }
 
   Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double) const {
     const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
@@ -86,15 +79,19 @@ class NormalEquation {
 
  private:
   template <class T>
-  T linearPart(const Sheets& at, const Sheet<T>& sheet) const {
+  T equation(const Sheets& at, const Sheet<T>& sheet) const {
     const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
-    return yp * (sheet.R - sheet.S - re(p_, sheet.zr)) + yr * re(p_, sheet.zf);
+    const T n3DeltaK =
+        product_.valid ? product_.evaluate(at, sheet) : sheet.n3() * sheet.delta * (im(difference_, sheet.zr) - area_);
+    return yp * (sheet.R - sheet.S - re(p_, sheet.zr)) + yr * re(p_, sheet.zf) - sheet.delta * re(difference_, sheet.zf) -
+           n3DeltaK;
   }
 
   const ThreePointFrame& frame_;
   ImagePoint p_, difference_;
+  NormalProduct product_;
   Eigen::Vector3d y_;  // from X3
-  double area_, k11_, k21_, k1_, k2_, triangle_;
+  double area_;
 };
 
 }  // namespace

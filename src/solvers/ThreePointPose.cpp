@@ -23,7 +23,7 @@ double imageError(const FramePose& pose, const Eigen::Vector3d& point, const Ima
 }
 
 bool seesThreePoints(const FramePose& pose, const ThreePointFrame& frame) {
-  if (!(pose.f > kMinFocalLength) || !(pose.x3[2] > 0)) return false;
+  if (!(pose.f > kMinFocalLength && pose.f < kMaxFocalLength) || !(pose.x3[2] > 0)) return false;
   const double error1 = imageError(pose, pose.transform({frame.a1, frame.h, 0}), frame.p1);
   const double error2 = imageError(pose, pose.transform({frame.b1, frame.h, 0}), frame.p2);
   return error1 >= 0 && error1 < kMaxImageError && error2 >= 0 && error2 < kMaxImageError;

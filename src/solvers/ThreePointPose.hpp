@@ -11,6 +11,8 @@ constexpr double kMaxImageError = 1e-9;
 // A smaller focal length, in the image unit, is that of a false solution: where a point is seen at the principal point, all
 // equations hold for f = 0.
 constexpr double kMinFocalLength = 1e-6;
+// With a longer one the pose is at infinity, and rounding alone moves image points by more than kMaxImageError.
+constexpr double kMaxFocalLength = 1e6;
 
 struct FramePose {
   Eigen::Vector3d r1, r2, r3;  // the query's axes (rows of the rotation)

@@ -66,5 +66,35 @@ struct Sheet {
   T n3() const { return J * (S + R) / (S * S + J * J); }
 };
 
+template <>
+inline math::Complex Sheet<math::Complex>::n3() const {
+  return squaredNorm(S) > squaredNorm(J) ? J / S : R / J;
+}
+
+// The product n3 delta K of an equation with the image point p, p' = p3 - p, K = im(p', zr) - im(p3, p). On W(eta) = 0 it is a
+// polynomial, without the poles of n3:
+//     -(re(D1, zr) (c k11 + s k21 + k1 eta) + k2 re(zr, c A21 + s (p3 - A11) + eta D2)) / im(D2, D1),
+// k11 = im(p', A11 - p3), k21 = im(p', A21), k1 = im(p', D1), k2 = im(p', D2). Inaccurate where the image points are nearly
+// collinear, im(D2, D1) = 0.
+struct NormalProduct {
+  const ThreePointFrame& frame;
+  double k11, k21, k1, k2;
+  bool valid;
+
+  NormalProduct(const ThreePointFrame& f, const ImagePoint& difference) : frame(f) {
+    const double area = im(frame.D2, frame.D1);
+    valid = area * area > 1e-6 * re(frame.D1, frame.D1) * re(frame.D2, frame.D2);
+    const ImagePoint scaled = (-1 / area) * difference;
+    k11 = im(scaled, frame.A11 - frame.p3), k21 = im(scaled, frame.A21);
+    k1 = im(scaled, frame.D1), k2 = im(scaled, frame.D2);
+  }
+
+  template <class T>
+  T evaluate(const Sheets& at, const Sheet<T>& sheet) const {
+    const Planar<T> y = (at.c * frame.A21 + at.s * (frame.p3 - frame.A11)) + sheet.eta * frame.D2;
+    return re(frame.D1, sheet.zr) * ((at.c * k11 + at.s * k21) + k1 * sheet.eta) + k2 * re(sheet.zr, y);
+  }
+};
+
 }  // namespace solvers
 }  // namespace hybridgv
