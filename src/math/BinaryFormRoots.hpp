@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/Bernstein.hpp"
+
 namespace hybridgv {
 namespace math {
 
@@ -356,14 +358,9 @@ double BinaryFormRoots<D>::largest(const double* b) {
   return best;
 }
 
-// de Casteljau at x = 1/2.
 template <int D>
 void BinaryFormRoots<D>::halve(const Piece& piece, Piece& left, Piece& right) {
-  for (int i = 0; i <= D; ++i) right.b[i] = piece.b[i];
-  for (int level = 0; level <= D; ++level) {
-    left.b[level] = right.b[0];
-    for (int i = 0; i < D - level; ++i) right.b[i] = (right.b[i] + right.b[i + 1]) / 2;
-  }
+  math::halve<D>(piece.b, left.b, right.b);
   left.c0 = piece.c0, left.s0 = piece.s0, right.c1 = piece.c1, right.s1 = piece.s1;
   left.c1 = right.c0 = (piece.c0 + piece.c1) / 2, left.s1 = right.s0 = (piece.s0 + piece.s1) / 2;
   left.depth = right.depth = piece.depth + 1;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/BernsteinBand.hpp"
+#include "math/Bernstein.hpp"
 
 namespace hybridgv {
 namespace solvers {
@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kPadded = kSamples + 4;
 // Samples of which this share is noise are those of R = 0.
-constexpr double kNoNoise = 1e-4;
+constexpr double kAllNoise = 1e-4;
 // More halvings, or more new samplings, mean that y is zero there up to rounding.
 constexpr int kMaxDepth = 16;
 constexpr int kMaxLevel = 2;
-constexpr int kMaxResamplings = 24;
+constexpr int kMaxResamplings = 40;
 
 // y on the interval between e0 and e1 in Bernstein form.
 struct Piece {
@@ -35,61 +35,75 @@ class Search {
   int run();
 
  private:
+  bool sample(double* y, double& tolerance) const;
+  void searchPiece(const double (&coefficients)[kDegree + 1][kPieces], int j, double sign, double tolerance);
   void search(const Piece& whole);
-  void addSimpleRoot(const Piece& piece);
-  void addUncertain(double e);
   bool resample(Piece& piece);
+  void addSimpleRoot(const Piece& piece);
+  void refineSimpleRoots();
+  void add(double e) {
+    if (count_ < kBatch) e_[count_++] = e;
+  }
 
   const Forms& forms_;
   const Kernel& kernel_;
   const SampleTables& tables_;
   double* e_;
   int count_ = 0, resamplings_ = 0;
-  // Simple roots are refined together at the end.
+  // Simple roots are refined together at the end. Root t means e = (from + t to) / (1 + t).
   PowerForms simple_;
   double start_[kBatch], from_[kBatch], to_[kBatch];
   int simpleCount_ = 0;
 };
 
 int Search::run() {
-  double samples[kPadded];
-  kernel_.determinants(forms_, tables_.nodes, kSamples, samples);
-  double largest = 0, noise = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    samples[i] *= tables_.factors[i];
-    largest = std::max(largest, std::abs(samples[i]));
-  }
-  for (int i = 0; i < kHalf; ++i) noise += tables_.noiseWeights[i] * (samples[i] - samples[i + kHalf]);
-  if (!(std::abs(noise) < kNoNoise * largest)) return 0;
-  const double tolerance = 1e-12 * largest + 30 * std::abs(noise);
-
+  double y[kPadded], tolerance;
+  if (!sample(y, tolerance)) return 0;
   PieceCoefficients pieces;
-  kernel_.bernsteinCoefficients(tables_, samples, pieces);
-  for (int side = 0; side < 2; ++side)
-    for (int j = 0; j < kPieces; ++j) {
-      const auto& coefficients = side ? pieces.negative : pieces.positive;
-      double low = coefficients[0][j], high = low;
-      for (int i = 1; i <= kDegree; ++i) low = std::min(low, coefficients[i][j]), high = std::max(high, coefficients[i][j]);
-      // Beyond the last sample the interpolant is extrapolated.
-      const double band = j == kPieces - 1 ? 20 * tolerance : tolerance;
-      if (low > band || high < -band) continue;
-      Piece piece;
-      for (int i = 0; i <= kDegree; ++i) piece.b[i] = coefficients[i][j];
-      const double sign = side ? -1 : 1;
-      piece.e0 = sign * tables_.breakpoints[j], piece.e1 = sign * tables_.breakpoints[j + 1];
-      piece.tolerance = band, piece.depth = piece.level = 0;
-      search(piece);
-    }
+  kernel_.bernsteinCoefficients(tables_, y, pieces);
+  for (int j = 0; j < kPieces; ++j) {
+    // Beyond the last sample the interpolant is extrapolated.
+    const double band = j == kPieces - 1 ? 20 * tolerance : tolerance;
+    searchPiece(pieces.positive, j, 1, band);
+    searchPiece(pieces.negative, j, -1, band);
+  }
+  refineSimpleRoots();
+  return count_;
+}
+
+// The samples and the uncertainty of their interpolant. False if they are noise.
+bool Search::sample(double* y, double& tolerance) const {
+  kernel_.determinants(forms_, tables_.nodes, kSamples, y);
+  double largest = 0, leading = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    y[i] *= tables_.factors[i];
+    largest = std::max(largest, std::abs(y[i]));
+  }
+  for (int i = 0; i < kHalf; ++i) leading += tables_.noiseWeights[i] * (y[i] - y[i + kHalf]);
+  const double noise = std::abs(leading);
+  tolerance = 1e-12 * largest + 30 * noise;
+  return noise < kAllNoise * largest;
+}
+
+void Search::searchPiece(const double (&coefficients)[kDegree + 1][kPieces], int j, double sign, double tolerance) {
+  double low = coefficients[0][j], high = low;
+  for (int i = 1; i <= kDegree; ++i) low = std::min(low, coefficients[i][j]), high = std::max(high, coefficients[i][j]);
+  if (low > tolerance || high < -tolerance) return;
+  Piece piece;
+  for (int i = 0; i <= kDegree; ++i) piece.b[i] = coefficients[i][j];
+  piece.e0 = sign * tables_.breakpoints[j], piece.e1 = sign * tables_.breakpoints[j + 1];
+  piece.tolerance = tolerance, piece.depth = piece.level = 0;
+  search(piece);
+}
+
+void Search::refineSimpleRoots() {
+  if (simpleCount_ == 0) return;
   for (int i = simpleCount_; i % 8 != 0; ++i) {
-    for (int k = 0; k <= kDegree; ++k) simple_.c[k][i] = simple_.c[k][i - 1];
+    for (auto& coefficient : simple_.c) coefficient[i] = coefficient[i - 1];
     start_[i] = start_[i - 1];
   }
   kernel_.simpleRoots(simple_, simpleCount_, start_);
-  for (int i = 0; i < simpleCount_; ++i) {
-    const double t = start_[i];
-    addUncertain((from_[i] + t * to_[i]) / (1 + t));
-  }
-  return count_;
+  for (int i = 0; i < simpleCount_; ++i) add((from_[i] + start_[i] * to_[i]) / (1 + start_[i]));
 }
 
 void Search::search(const Piece& whole) {
@@ -110,7 +124,7 @@ void Search::search(const Piece& whole) {
     if (largest < 8 * piece.tolerance && resample(piece)) {
       stack[size++] = piece;
     } else if (largest < 8 * piece.tolerance || piece.depth == kMaxDepth) {
-      addUncertain((piece.e0 + piece.e1) / 2);
+      add((piece.e0 + piece.e1) / 2);
     } else {
       Piece& right = stack[size];
       Piece& left = stack[size + 1];
@@ -140,26 +154,24 @@ void Search::addSimpleRoot(const Piece& piece) {
   to_[n] = secondHalf ? piece.e0 : piece.e1;
 }
 
-void Search::addUncertain(double e) {
-  if (count_ < kBatch) e_[count_++] = e;
-}
-
 bool Search::resample(Piece& piece) {
   if (piece.level == kMaxLevel || resamplings_ == kMaxResamplings) return false;
   ++resamplings_;
   double e[2 * 8], y[2 * 8];
   for (int k = 0; k < 16; ++k) e[k] = piece.e0 + (piece.e1 - piece.e0) * tables_.chebyshev[std::min(k, kDegree)];
   kernel_.determinants(forms_, e, kDegree + 1, y);
-  double largest = 0;
+  double largest = 0, tail[2] = {};
   for (int k = 0; k <= kDegree; ++k) {
     y[k] *= SampleTables::factor(e[k]);
     largest = std::max(largest, std::abs(y[k]));
+    for (int i : {0, 1}) tail[i] += tables_.tail[i][k] * y[k];
   }
   for (int i = 0; i <= kDegree; ++i) {
     piece.b[i] = 0;
     for (int k = 0; k <= kDegree; ++k) piece.b[i] += tables_.fromChebyshev[i][k] * y[k];
   }
-  piece.tolerance = 1e-13 * largest;
+  // Where y has many roots it is no polynomial of this degree on the piece; the last coefficients show how far it is from one.
+  piece.tolerance = 1e-13 * largest + std::abs(tail[0]) + std::abs(tail[1]);
   piece.depth = 0;
   ++piece.level;
   return true;

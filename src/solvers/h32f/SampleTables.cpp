@@ -60,6 +60,8 @@ SampleTables::SampleTables() {
     chebyshev[i] = static_cast<double>(x[i]);
     if (i > 0) binomial[i] = binomial[i - 1] * (kDegree + 1 - i) / i;
     for (int k = 0; k <= kDegree; ++k) fromChebyshev[i][k] = static_cast<double>(bernsteinFromValues(i, k));
+    for (int order : {0, 1})
+      tail[order][i] = static_cast<double>(2 * std::cos((kDegree - order) * (i + 0.5L) * kPi / (kDegree + 1)) / (kDegree + 1));
   }
 
   // Breakpoints at equal phase up to the largest node's end, then 1.

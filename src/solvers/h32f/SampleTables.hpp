@@ -37,6 +37,8 @@ struct SampleTables {
   // Interpolation at kDegree + 1 Chebyshev points of [0, 1]: Bernstein coefficient i = sum_k fromChebyshev[i][k] y(chebyshev[k]).
   double chebyshev[kDegree + 1];
   double fromChebyshev[kDegree + 1][kDegree + 1];
+  // The last two Chebyshev coefficients: sum_k tail[i][k] y(chebyshev[k]).
+  double tail[2][kDegree + 1];
   double binomial[kDegree + 1];
 
   SampleTables();

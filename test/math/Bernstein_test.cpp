@@ -1,4 +1,4 @@
-#include "math/BernsteinBand.hpp"
+#include "math/Bernstein.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Polynomials on [0, 1] in Bernstein form whose coefficients are known up to a tolerance only.
+// Polynomials on [0, 1] in Bernstein form, sum_i b_i C(D,i) (1-x)^(D-i) x^i.
 #pragma once
 
 #include <cmath>
