@@ -27,7 +27,7 @@ using namespace hybridgv;
 
 namespace {
 
-constexpr int kProblems = 20;
+constexpr std::uint64_t kProblems = 20;
 constexpr double kTolerance = 1e-9;
 
 using Numbers = std::vector<double>;
@@ -71,6 +71,11 @@ struct Item {
 };
 
 const std::vector<Item> kItems = {
+    {"p4pf", {}, 4, [](const auto& adapter, const FocalPose&) { return flatten(absolute_pose::p4pf(adapter)); }},
+    {"p35pf", {}, 4, [](const auto& adapter, const FocalPose&) { return flatten(absolute_pose::p35pf(adapter)); }},
+    {"h13f", {1}, 3, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h13f(adapter)); }},
+    {"h32f", {2, 1}, 2, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h32f(adapter)); }},
+    {"h51f[1]", {1, 1, 1, 1, 1}, 1, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h51f(adapter)); }},
     {"h51f[5]", {5}, 1, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h51f(adapter)); }},
     {"sixpt_onefocal",
      {6},

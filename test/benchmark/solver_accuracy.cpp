@@ -16,6 +16,7 @@
 
 #include "AwkwardProblems.hpp"
 #include "MinimalProblem.hpp"
+#include "OneCentreProblems.hpp"
 #include "solvers/solvers.hpp"
 
 namespace {
@@ -40,7 +41,7 @@ std::vector<Row> rows(bool awkward) {
   } solvers[] = {{"p4pf", &solvers::p4pf, {}, 4, 3},         {"p35pf", &solvers::p35pf, {}, 4, 3},
                  {"h13f", &solvers::h13f, {1}, 3, 3},        {"h32f [1]", &solvers::h32f, {1, 1, 1}, 2, 2},
                  {"h32f [2]", &solvers::h32f, {2, 1}, 2, 2}, {"h32f [3]", &solvers::h32f, {3}, 2, 2},
-                 {"h51f [5]", &solvers::h51f, {5}, 1, 1}};
+                 {"h51f [5]", &solvers::h51f, {5}, 1, 1},    {"sixpt_onefocal", &solvers::sixptOnefocal, {6}, 0, 0}};
   std::vector<Row> rows;
   for (const auto& solver : solvers) {
     if (!awkward) {
@@ -54,6 +55,14 @@ std::vector<Row> rows(bool awkward) {
         rows.push_back({std::string(solver.name) + ", " + c.name, solver.solve, solver.exactPoints,
                         [=](Random& random) { return makeAwkwardProblem(random, c, solver.raysPerCamera, solver.points); }});
   }
+  if (awkward)
+    for (OneCentreKind kind : {OneCentreKind::FiveRaysOnePoint, OneCentreKind::SixRays})
+      for (const OneCentreAwkwardCase& c : oneCentreAwkwardCases()) {
+        const bool six = kind == OneCentreKind::SixRays;
+        rows.push_back({std::string(six ? "sixpt_onefocal, " : "h51f [5], ") + c.name,
+                        six ? &solvers::sixptOnefocal : &solvers::h51fOneCentre, six ? 0u : 1u,
+                        [=](Random& random) { return makeOneCentreProblem(random, kind, c); }});
+      }
   return rows;
 }
 

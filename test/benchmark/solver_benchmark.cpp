@@ -27,8 +27,6 @@ namespace benchmarks {
 namespace {
 
 constexpr int kProblems = 1000;
-constexpr int kRepetitions = 25;
-constexpr double kSecondsPerRepetition = 0.02;
 constexpr std::uint64_t kSeed = 7102;
 constexpr double kRecovered = 1e-6;  // rotation [rad] and relative focal length
 
@@ -79,10 +77,6 @@ struct Statistics {
   }
 };
 
-void configure(benchmark::internal::Benchmark* row) {
-  row->Repetitions(kRepetitions)->MinTime(kSecondsPerRepetition)->Unit(benchmark::kMicrosecond);
-}
-
 void registerSolver(const RowDescription& description) {
   struct Data {
     std::vector<NoncentralHybridAdapter> adapters;
@@ -102,14 +96,14 @@ void registerSolver(const RowDescription& description) {
     const FocalPoses solutions = description.call(data->adapters.back(), data->indices);
     data->statistics.add(solutions.size(), test::distanceToNearest(solutions, problem.truth));
   }
-  configure(benchmark::RegisterBenchmark(description.name, [data, call = description.call](benchmark::State& state) {
+  benchmark::RegisterBenchmark(description.name, [data, call = description.call](benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
       benchmark::DoNotOptimize(call(data->adapters[i], data->indices));
       i = (i + 1) % kProblems;
     }
     data->statistics.writeTo(state);
-  }));
+  });
 }
 
 void registerGp3p() {
@@ -127,7 +121,7 @@ void registerGp3p() {
     for (const auto& solution : solutions) error = std::min(error, (solution.leftCols<3>() - problem.truthRotation()).norm());
     data->statistics.add(solutions.size(), error);
   }
-  configure(benchmark::RegisterBenchmark("gp3p", [data](benchmark::State& state) {
+  benchmark::RegisterBenchmark("gp3p", [data](benchmark::State& state) {
     const std::vector<int> indices{0, 1, 2};
     std::size_t i = 0;
     for (auto _ : state) {
@@ -135,7 +129,7 @@ void registerGp3p() {
       i = (i + 1) % kProblems;
     }
     data->statistics.writeTo(state);
-  }));
+  });
 }
 
 }  // namespace
@@ -144,8 +138,10 @@ void registerGp3p() {
 
 int main(int argc, char** argv) {
   using namespace hybridgv::benchmarks;
-  std::string interleave = "--benchmark_enable_random_interleaving=true";
-  std::vector<char*> arguments{argv[0], interleave.data()};
+  std::string defaults[] = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=25",
+                            "--benchmark_min_time=0.02"};
+  std::vector<char*> arguments{argv[0]};
+  for (std::string& argument : defaults) arguments.push_back(argument.data());
   bool markdown = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--markdown") == 0)

@@ -56,29 +56,12 @@ TEST_P(OneCentre, FindsTheTruth) {
 }
 
 TEST_P(OneCentre, SolvesAwkwardCases) {
-  struct Case {
-    const char* name;
-    std::function<void(OneCentreScene&)> change;
-    int failuresAllowed;  // of 2000
-  };
-  const Case cases[] = {
-      {"last image point at the principal point", [](OneCentreScene& scene) { scene.moveToAxis(5, 0); }, 2},
-      {"last image point near the principal point", [](OneCentreScene& scene) { scene.moveToAxis(5, 0.01); }, 3},
-      {"a ray's image point at the principal point", [](OneCentreScene& scene) { scene.moveToAxis(2, 0); }, 2},
-      {"five coplanar points", [](OneCentreScene& scene) { scene.flatten(5, 0); }, 4},
-      {"six points flattened to 0.1", [](OneCentreScene& scene) { scene.flatten(6, 0.1); }, 2},
-      {"six points flattened to 0.01", [](OneCentreScene& scene) { scene.flatten(6, 0.01); }, 3},
-      {"six points flattened to 0.001", [](OneCentreScene& scene) { scene.flatten(6, 0.001); }, 4},
-      {"narrow field of view", [](OneCentreScene& scene) { scene.shrink(0.15); }, 3},
-  };
   constexpr std::uint64_t kCount = 2000;
-  for (const Case& test : cases) {
+  for (const OneCentreAwkwardCase& test : oneCentreAwkwardCases()) {
     int failures = 0;
     for (std::uint64_t i = 0; i < kCount; ++i) {
       Random random(testSeed() + 1, i);
-      OneCentreScene awkward = scene(random);
-      test.change(awkward);
-      const MinimalProblem problem = awkward.problem();
+      const MinimalProblem problem = makeOneCentreProblem(random, GetParam(), test);
       const FocalPoses solutions = solveOneCentre(problem);
       expectValid(problem, solutions, test.name, i);
       failures += !(distanceToNearest(solutions, problem.truth) < kRecovered);

@@ -71,6 +71,33 @@ class OneCentreScene {
   int onAxis_ = -1;
 };
 
+// Well-posed cases that are hard on the solvers.
+struct OneCentreAwkwardCase {
+  const char* name;
+  void (*change)(OneCentreScene& scene);
+  int failuresAllowed;  // of 2000
+};
+
+inline const std::vector<OneCentreAwkwardCase>& oneCentreAwkwardCases() {
+  static const std::vector<OneCentreAwkwardCase> cases = {
+      {"last image point at the principal point", [](OneCentreScene& scene) { scene.moveToAxis(5, 0); }, 2},
+      {"last image point near the principal point", [](OneCentreScene& scene) { scene.moveToAxis(5, 0.01); }, 3},
+      {"third image point at the principal point", [](OneCentreScene& scene) { scene.moveToAxis(2, 0); }, 2},
+      {"five coplanar points", [](OneCentreScene& scene) { scene.flatten(5, 0); }, 4},
+      {"six points flattened to 0.1", [](OneCentreScene& scene) { scene.flatten(6, 0.1); }, 2},
+      {"six points flattened to 0.01", [](OneCentreScene& scene) { scene.flatten(6, 0.01); }, 3},
+      {"six points flattened to 0.001", [](OneCentreScene& scene) { scene.flatten(6, 0.001); }, 4},
+      {"narrow field of view", [](OneCentreScene& scene) { scene.shrink(0.15); }, 3},
+  };
+  return cases;
+}
+
+inline MinimalProblem makeOneCentreProblem(Random& random, OneCentreKind kind, const OneCentreAwkwardCase& awkward) {
+  OneCentreScene scene(random, kind);
+  awkward.change(scene);
+  return scene.problem();
+}
+
 inline FocalPoses solveOneCentre(const MinimalProblem& problem) {
   FocalPose solutions[solvers::kMaxSolutions];
   const auto solve = problem.points.empty() ? &solvers::sixptOnefocal : &solvers::h51fOneCentre;
