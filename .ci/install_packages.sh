@@ -21,4 +21,4 @@ if [ "$(id -u)" != 0 ]; then
 fi
 echo "Installing$missing" >&2
 $as_root apt-get update -qq >&2
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >&2
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends $missing >/dev/null

@@ -97,6 +97,20 @@ TEST_P(SacLoops, SameSeedGivesTheSameResult) {
   EXPECT_NE(first.model.focalLength, other.model.focalLength);
 }
 
+// No rig camera has five rays: the samples of H51f come from several.
+TEST(SacLoopsWithManyCameras, H51fFindsThePose) {
+  test::Random random(test::testSeed());
+  test::MinimalProblem problem = test::makeMinimalProblem(random, std::vector<int>(12, 4), 20);
+  test::addNoise(random, 0.1, problem);
+  test::addOutliers(random, 6, problem);
+  for (const NamedLoop& loop : {kLoops[0], kLoops[2]}) {
+    const Result result = loop.run(test::makeAdapter(problem), Solver::H51f, 1);
+    ASSERT_TRUE(result.success) << loop.name;
+    EXPECT_GE(result.inliers, 52u) << loop.name;
+    EXPECT_LT(test::poseDistance(result.refined, problem.truth), 0.01) << loop.name;
+  }
+}
+
 // Hard data, not a wrong call: no model, no exception, an end after 10 max_iterations_ samples.
 TEST_P(SacLoops, DegenerateDataGiveNoModel) {
   test::MinimalProblem problem = test::makeMinimalProblem(random_, {6, 6}, 6);

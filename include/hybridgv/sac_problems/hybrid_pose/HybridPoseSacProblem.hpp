@@ -73,9 +73,9 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
     setUniformIndices(core_.size()[0] + core_.size()[1]);
   }
 
-  /// Whether the 2D-2D correspondences of a sample come from one rig camera (the default for H51f, where it is several hundred
-  /// times faster: 9 instead of 56 solutions) or from any (the default for the others). Where no rig camera has enough, they come
-  /// from any in either case.
+  /// Whether the 2D-2D correspondences of a sample come from one rig camera (the default for H51f, where it is about a hundred
+  /// times faster: 9 instead of 56 solutions) or from any (the default for the others). Where no rig camera has enough, they
+  /// come from any in either case.
   void setRaysFromOneCamera(bool oneCamera) { raysFromOneCamera_ = oneCamera; }
 
   /// The size of a sample: m + n.
