@@ -24,14 +24,21 @@ RationalChebyshev::RationalChebyshev(int nodeCount, int poleOrder, long double p
 }
 
 long double RationalChebyshev::pointAtPhase(long double phase) const {
-  const long double r = rho / scale, b = std::sqrt(1 + r * r) - r, n = static_cast<long double>(nodes.size());
-  long double low = 0, high = kPi;  // the phase increases with theta
-  for (int i = 0; i < 80; ++i) {
-    const long double theta = (low + high) / 2;
-    const long double value = n * theta - 2 * m * std::atan2(b * b * std::sin(2 * theta), 1 + b * b * std::cos(2 * theta));
-    (value < phase ? low : high) = theta;
+  const long double r = rho / scale, b = std::sqrt(1 + r * r) - r, b2 = b * b, n = static_cast<long double>(nodes.size());
+  // Newton's method for the increasing function phase(theta), kept inside a shrinking bracket.
+  long double low = 0, high = kPi, theta = phase / n;
+  for (int i = 0; i < 100; ++i) {
+    const long double c = std::cos(2 * theta), s = std::sin(2 * theta);
+    const long double error = n * theta - 2 * m * std::atan2(b2 * s, 1 + b2 * c) - phase;
+    const long double slope = n - 4 * m * b2 * (c + b2) / (1 + 2 * b2 * c + b2 * b2);
+    (error < 0 ? low : high) = theta;
+    long double next = theta - error / slope;
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    const long double step = std::abs(next - theta);
+    theta = next;
+    if (step < 1e-18L) break;
   }
-  return scale * std::cos((low + high) / 2);
+  return scale * std::cos(theta);
 }
 
 std::vector<long double> RationalChebyshev::cardinals(long double x) const {
