@@ -1,0 +1,84 @@
+// Writes the first inputs of all fuzzers: make_seeds FOLDER. For the solvers valid samples (their problems solved exactly, see
+// MinimalProblem.hpp), for the readers small valid files.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "MinimalProblem.hpp"
+#include "SampleBytes.hpp"
+#include "TemporaryFolder.hpp"
+#include "hybridgv/adapters/sfm/ModelFiles.hpp"
+
+namespace hybridgv {
+namespace fuzz {
+namespace {
+
+constexpr std::uint64_t kSeed = 71;
+constexpr char kSeparator[] = "\n%%%\n";
+
+const char* const kCameras =
+    "1 SIMPLE_RADIAL 640 480 500 320 240 0.1\n2 PINHOLE 640 480 500 510 320 240\n3 OPENCV 9 9 5 5 4 4 0.1 0 0.01 0\n"
+    "4 RADIAL 9 9 5 4 4 -0.1 0.01\n5 SIMPLE_PINHOLE 9 9 5 4 4\n";
+const char* const kImages =
+    "# images\n1 1 0 0 0 0 0 5 1 a.jpg\n10 20 7 30 40 -1\n2 1 0 0 0 1 0 5 2 b.jpg\n50 60 7 70 80 8\n3 1 0 0 0 2 0 5 3 c.jpg\n"
+    "15 25 8\n4 0.7 0 0.7 0 2 0 5 4 d.jpg\n\n";
+const char* const kPoints = "7 0 0 1 9 9 9 0.5 1 0 2 0\n8 1 1 1 9 9 9 0.5 2 1 3 0\n";
+const char* const kBundler =
+    "# Bundle file v0.3\n2 2\n500 0.1 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -5\n510 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 -5\n"
+    "0 0 1\n1 2 3\n2 0 3 10 20 1 4 50 60\n1 0 1\n1 2 3\n1 0 3 10 20\n";
+const char* const kNvm =
+    "NVM_V3 FixedK 500 320 510 240\n\n2\na.jpg 500 1 0 0 0 0 0 -5 0.1 0\nb.jpg 500 1 0 0 0 1 0 -5 0 0\n\n1\n"
+    "0 0 1 9 9 9 2 0 3 10 20 1 4 50 60\n\n0\n#PLY\n0\n";
+const char* const kNvmTwoModels =
+    "NVM_V3\n\n1\na.jpg 500 1 0 0 0 0 0 -5 0 0\n1\n0 0 1 9 9 9 1 0 3 10 20\n1\nb.jpg 5 1 0 0 0 0 0 0 0 0\n0\n0\n";
+const char* const kProblem =
+    "# problem\nquery 500 1 0 0 0 0 0 5\ncam 3 1 2 3\ncam 4 0 1 0\np3 10 20 1 2 3\np3 -10 2 1 3 3\np2 30 40 3 0 0 1\np2 3 4 4 1 "
+    "0 1\n";
+
+void write(const std::filesystem::path& file, const std::string& contents) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << contents;
+}
+
+void writeSamples(const std::filesystem::path& folder, const std::vector<std::vector<int>>& raysPerCamera, int points) {
+  for (std::size_t i = 0; i < raysPerCamera.size(); ++i) {
+    test::Random random(kSeed, i);
+    const test::MinimalProblem problem = test::makeMinimalProblem(random, raysPerCamera[i], points);
+    write(folder / ("sample" + std::to_string(i)), encodeSample({problem.rays, problem.points}));
+  }
+}
+
+void writeModels(const std::filesystem::path& folder) {
+  const test::TemporaryFolder files;
+  files.write("cameras.txt", kCameras), files.write("images.txt", kImages), files.write("points3D.txt", kPoints);
+  sfm::writeColmapBinary(files.path(), sfm::readColmapText(files.path()));
+  write(folder / "colmap_text" / "model", std::string(kCameras) + kSeparator + kImages + kSeparator + kPoints);
+  write(folder / "colmap_binary" / "model",
+        files.read("cameras.bin") + kSeparator + files.read("images.bin") + kSeparator + files.read("points3D.bin"));
+  write(folder / "bundler" / "model", kBundler);
+  write(folder / "nvm" / "model", kNvm);
+  write(folder / "nvm" / "two_models", kNvmTwoModels);
+  write(folder / "problem" / "problem", kProblem);
+}
+
+}  // namespace
+}  // namespace fuzz
+}  // namespace hybridgv
+
+int main(int argc, char** argv) {
+  using namespace hybridgv::fuzz;
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_seeds FOLDER\n");
+    return 1;
+  }
+  const std::filesystem::path folder = argv[1];
+  writeSamples(folder / "p4pf", {{}, {}}, 4);
+  writeSamples(folder / "p35pf", {{}, {}}, 4);
+  writeSamples(folder / "h13f", {{1}, {1}}, 3);
+  writeSamples(folder / "h32f", {{1, 1, 1}, {2, 1}, {3}}, 2);
+  writeSamples(folder / "h51f", {{1, 1, 1, 1, 1}, {2, 1, 1, 1}, {2, 2, 1}, {3, 1, 1}, {3, 2}, {4, 1}, {5}}, 1);
+  writeSamples(folder / "sixpt_onefocal", {{6}, {6}}, 0);
+  writeModels(folder);
+}
