@@ -47,7 +47,7 @@ double linearise(const std::vector<View>& views, const Eigen::Vector3d& point, E
 
 }  // namespace
 
-Eigen::Vector3d View::direction() const { return Eigen::Vector3d(u, v, focalLength).normalized(); }
+Eigen::Vector3d View::direction() const { return Eigen::Vector3d(u, v, focalLength).stableNormalized(); }
 
 Triangulation triangulate(const std::vector<View>& views) {
   constexpr int kMaxIterations = 20;

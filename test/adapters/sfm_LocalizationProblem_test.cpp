@@ -189,6 +189,19 @@ TEST(LocalizationProblem, UnregisteredImagesAndPixelsThatCannotBeUndistortedAreI
   EXPECT_EQ(makeLocalizationProblem(model, 1).points2d3d.size(), 0u);
 }
 
+// The square of such a coordinate overflows.
+TEST(LocalizationProblem, HugeImageCoordinatesHaveADirection) {
+  SparseModel model;
+  model.cameras.push_back(test::makeCamera(CameraModel::SimplePinhole));
+  model.points.push_back({1, Vector3d(0, 0, 9), {}, -1, {{0, 0}, {1, 0}}});
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    model.images.push_back({i, "a", 0, true, Eigen::Matrix3d::Identity(), Vector3d::Zero(), {{1e200, 1e200, 0}}});
+  }
+  const LocalizationProblem problem = makeLocalizationProblem(model, 0);
+  ASSERT_EQ(problem.adapter.getNumberCorrespondences2d2d(), 1u);
+  EXPECT_LT((problem.adapter.getBearingVector(0) - Vector3d(1, 1, 0).normalized()).norm(), 1e-15);
+}
+
 TEST(LocalizationProblem, RejectsBadArguments) {
   const SparseModel model = makeModel(5);
   EXPECT_THROW(makeLocalizationProblem(model, model.images.size()), std::invalid_argument);

@@ -53,20 +53,18 @@ inline bool isFinite(const Sample& sample) {
          std::all_of(sample.points.begin(), sample.points.end(), pointIsFinite);
 }
 
-// How many pixels a rounding error of the position makes at an image point (u, v), `distance` away from the query.
-inline double rounding(const FocalPose& pose, double u, double v, double coordinates, double distance) {
-  constexpr double kOperations = 1e5;
-  const double f = pose.focalLength;
-  return kOperations * std::numeric_limits<double>::epsilon() * (f + (u * u + v * v) / f) * (coordinates + distance) / distance;
-}
-
 class EquationCheck {
  public:
   // `exactCoordinates`: how many image coordinates of the points, counted from the first, the solver satisfies exactly.
   EquationCheck(const Sample& sample, std::size_t exactCoordinates) : sample_(sample), exactCoordinates_(exactCoordinates) {
-    for (const solvers::RayMatch& ray : sample.rays) imageScale_ = std::max({imageScale_, std::abs(ray.u), std::abs(ray.v)});
-    for (const solvers::PointMatch& match : sample.points)
+    for (const solvers::RayMatch& ray : sample.rays) {
+      imageScale_ = std::max({imageScale_, std::abs(ray.u), std::abs(ray.v)});
+      extent_ = std::max(extent_, ray.centre.norm());
+    }
+    for (const solvers::PointMatch& match : sample.points) {
       imageScale_ = std::max({imageScale_, std::abs(match.u), std::abs(match.v)});
+      extent_ = std::max(extent_, match.point.norm());
+    }
   }
 
   void check(const FocalPose& pose) const {
@@ -81,20 +79,33 @@ class EquationCheck {
   }
 
  private:
+  [[noreturn]] static void reportError(const char* promise, const FocalPose& pose, double error, double allowed) {
+    std::fprintf(stderr, "error %g, allowed %g; focal length %g, position %g %g %g\n", error, allowed, pose.focalLength,
+                 pose.position[0], pose.position[1], pose.position[2]);
+    reportFault(promise);
+  }
+
   static constexpr double kTolerance = 1e-6;  // of the largest image coordinate
+
+  // How many pixels rounding errors in the unit of the whole scene make at an image point (u, v), `distance` away from the query.
+  double rounding(const FocalPose& pose, double u, double v, double distance) const {
+    constexpr double kOperations = 1e5;
+    const double f = pose.focalLength, size = extent_ + pose.position.norm() + distance;
+    return kOperations * std::numeric_limits<double>::epsilon() * (f + (u * u + v * v) / f) * size / distance;
+  }
 
   // Written so that what overflows passes.
   void checkPoint(const FocalPose& pose, std::size_t i) const {
     const solvers::PointMatch& match = sample_.points[i];
     const Eigen::Vector3d x = pose.rotation.transpose() * (match.point - pose.position);
-    const double allowed =
-        kTolerance * imageScale_ + rounding(pose, match.u, match.v, match.point.norm() + pose.position.norm(), x.norm());
+    const double allowed = kTolerance * imageScale_ + rounding(pose, match.u, match.v, x.norm());
     if (!(allowed < imageScale_)) return;
-    if (x[2] <= 0) reportFault("points are in front of the query");
-    if (2 * i < exactCoordinates_ && std::abs(pose.focalLength * x[0] / x[2] - match.u) > allowed)
-      reportFault("the u coordinates of points are met");
-    if (2 * i + 1 < exactCoordinates_ && std::abs(pose.focalLength * x[1] / x[2] - match.v) > allowed)
-      reportFault("the v coordinates of points are met");
+    if (x[2] <= 0) reportError("points are in front of the query", pose, -x[2], 0);
+    const double errorU = std::abs(pose.focalLength * x[0] / x[2] - match.u);
+    const double errorV = std::abs(pose.focalLength * x[1] / x[2] - match.v);
+    if (2 * i < exactCoordinates_ && errorU > allowed) reportError("the u coordinates of points are met", pose, errorU, allowed);
+    if (2 * i + 1 < exactCoordinates_ && errorV > allowed)
+      reportError("the v coordinates of points are met", pose, errorV, allowed);
   }
 
   // Distance of the image point from the image of the ray.
@@ -105,15 +116,15 @@ class EquationCheck {
     // The line of sight and the ray nearly coincide with the baseline: no line.
     if (!(line.norm() > 1e-6 * b.norm())) return;
     line[2] *= pose.focalLength;
-    const double allowed =
-        kTolerance * imageScale_ + rounding(pose, ray.u, ray.v, ray.centre.norm() + pose.position.norm(), line.norm() / a.norm());
+    const double allowed = kTolerance * imageScale_ + rounding(pose, ray.u, ray.v, line.norm());
     if (!(allowed < imageScale_)) return;
     if (std::abs(line.dot(Eigen::Vector3d(ray.u, ray.v, 1))) > allowed * line.head<2>().norm()) reportFault("rays are met");
   }
 
   const Sample& sample_;
   std::size_t exactCoordinates_;
-  double imageScale_ = 0;
+  double imageScale_ = 0;  // largest image coordinate
+  double extent_ = 0;      // largest distance of a point or centre from the origin
 };
 
 template <class Solve>

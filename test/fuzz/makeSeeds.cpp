@@ -9,6 +9,7 @@
 #include "MinimalProblem.hpp"
 #include "SampleBytes.hpp"
 #include "TemporaryFolder.hpp"
+#include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 
 namespace hybridgv {
@@ -61,6 +62,10 @@ void writeModels(const std::filesystem::path& folder) {
   write(folder / "nvm" / "model", kNvm);
   write(folder / "nvm" / "two_models", kNvmTwoModels);
   write(folder / "problem" / "problem", kProblem);
+  // They must be valid: a reader throws otherwise.
+  sfm::readBundler(folder / "bundler" / "model");
+  sfm::readNvm(folder / "nvm" / "model"), sfm::readNvm(folder / "nvm" / "two_models");
+  sfm::readProblem(folder / "problem" / "problem");
 }
 
 }  // namespace
