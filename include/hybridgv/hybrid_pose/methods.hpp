@@ -46,6 +46,7 @@ HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 /// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
 /// correspondences", WACV 2023, which poses the problem and counts its solutions.
 HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
+/// The same for the first three 2D-2D and the first two 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 
 /// H51f: pose and focal length of the query from five 2D-2D correspondences and one 2D-3D correspondence.
@@ -77,13 +78,11 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// the processor's vector registers (SSE2, AVX2 or AVX-512, chosen at run time; the environment variable
 /// HYBRIDGV_SIMD=sse2|avx2|avx512 asks for less); the end points are polished in double precision, and doubtful paths followed
 /// again with smaller steps.
-/// - A pose may be missing where two solutions nearly coincide, or where two paths pass each other so closely that one of them
-/// takes
+/// - A pose may be missing where two solutions nearly coincide, or where two paths pass each other so closely that one takes
 ///   the other's end. Measured: the true pose is found in more than 99.99 % of random scenes, also with planar scenes and with
 ///   rigs whose baseline is a hundredth of the distance; see the CHANGELOG for the counts.
-/// - An image point exactly at the principal point moves 8 to 24 solutions to infinity, which takes three to four times as long;
-/// the
-///   others are found.
+/// - An image point exactly at the principal point moves 8 to 24 solutions to infinity, which takes three to four times as
+///   long; the others are found.
 /// - Degenerate, normally nothing is returned: a repeated ray, a ray through X, all image points equal, all rays parallel, all
 ///   points on one line. The number of steps is bounded, and such data take a few milliseconds at most.
 ///
@@ -92,14 +91,15 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
 /// correspondences", WACV 2023, which poses the problem and counts its solutions.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
+/// The same for the first five 2D-2D correspondences and the first 2D-3D correspondence.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter);
 
 /// Result of optimize_nonlinear.
 struct HYBRIDGV_EXPORT NonlinearResult {
-  FocalPose pose;
-  bool converged = false;
-  int iterations = 0;
-  double cost = 0;  ///< sum of the squared residuals at the result [px^2]; infinite where the start has none
+  FocalPose pose;          ///< the local minimum
+  bool converged = false;  ///< false: the data do not fix the pose, or the iterations were used up
+  int iterations = 0;      ///< steps tried
+  double cost = 0;         ///< sum of the squared residuals at the result [px^2]; infinite where the start has none
   /// J^T J at the result, 7x7 row-major [px^2 per product of the parameters' units]: small rotation in the query's frame
   /// (rotation * exp([.]x)) [rad], position, log focal length.
   std::array<double, 49> information{};

@@ -42,6 +42,7 @@ namespace relative_pose {
 /// with a single known focal length", ICCV 2009.
 /// Cost: about a quarter of opengv::absolute_pose::gp3p (4 microseconds where that takes 16).
 HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
+/// The same for the first six 2D-2D correspondences.
 HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter);
 
 }  // namespace relative_pose

@@ -53,8 +53,8 @@ namespace hybrid_pose {
 ///   true.
 class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPose> {
  public:
-  using model_t = FocalPose;
-  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;
+  using model_t = FocalPose;                                   ///< OpenGV's loops ask for this name
+  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;  ///< likewise
 
   /// \param adapter  the correspondences
   /// \param solver  the minimal solver
@@ -96,15 +96,18 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   /// See HybridProblemCore::isSampleGood.
   bool isSampleGood(const std::vector<int>& sample) const override { return core_.isSampleGood(core_.split(sample)); }
 
+  /// See HybridProblemCore::computeModel; the pool is the list set by setIndices.
   bool computeModelCoefficients(const std::vector<int>& indices, model_t& outModel) const override {
     return core_.computeModel(core_.split(indices), *indices_, outModel);
   }
 
+  /// See HybridProblemCore::distances.
   void getSelectedDistancesToModel(const model_t& model, const std::vector<int>& indices,
                                    std::vector<double>& scores) const override {
     core_.distances(model, indices, scores);
   }
 
+  /// See HybridProblemCore::countWithin.
   int countWithinDistance(const model_t& model, const double threshold) override {
     return core_.countWithin(model, *indices_, threshold);
   }

@@ -66,6 +66,7 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   /// hybrid_pose::optimize_nonlinear on the inliers.
   FocalPose optimize(const MultiIndices& inliers, const FocalPose& model) const;
 
+  /// Stands for an infinite distance: OpenGV's loops add distances up.
   static constexpr double kMaxDistance = 1e6;
 
  private:

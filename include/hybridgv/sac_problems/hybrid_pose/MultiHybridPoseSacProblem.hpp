@@ -31,8 +31,8 @@ namespace hybrid_pose {
 ///       ransac.sac_model_->optimizeModelCoefficients(ransac.inliers_, ransac.model_coefficients_, refined);
 class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProblem<FocalPose> {
  public:
-  using model_t = FocalPose;
-  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;
+  using model_t = FocalPose;                                   ///< OpenGV's loops ask for this name
+  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;  ///< likewise
 
   /// See HybridPoseSacProblem.
   MultiHybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
@@ -61,10 +61,12 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
   /// See HybridProblemCore::isSampleGood.
   bool isSampleGood(const std::vector<std::vector<int>>& sample) const override { return core_.isSampleGood(sample); }
 
+  /// See HybridProblemCore::computeModel; the pool is the list set by setIndices.
   bool computeModelCoefficients(const std::vector<std::vector<int>>& indices, model_t& outModel) const override {
     return core_.computeModel(indices, core_.join(*indices_), outModel);
   }
 
+  /// See HybridProblemCore::distances.
   void getSelectedDistancesToModel(const model_t& model, const std::vector<std::vector<int>>& indices,
                                    std::vector<std::vector<double>>& scores) const override {
     std::vector<double> flat;
@@ -73,6 +75,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
     scores = {{flat.begin(), middle}, {middle, flat.end()}};
   }
 
+  /// See HybridProblemCore::countWithin.
   int countWithinDistance(const model_t& model, const double threshold) override {
     return core_.countWithin(model, core_.join(*indices_), threshold);
   }

@@ -37,8 +37,8 @@ namespace hybridgv {
 /// compile). They are only read, and must keep their number of correspondences and their cameras.
 class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
  public:
-  using RelativeAdapter = opengv::relative_pose::RelativeAdapterBase;
-  using AbsoluteAdapter = opengv::absolute_pose::AbsoluteAdapterBase;
+  using RelativeAdapter = opengv::relative_pose::RelativeAdapterBase;  ///< holds 2D-2D correspondences
+  using AbsoluteAdapter = opengv::absolute_pose::AbsoluteAdapterBase;  ///< holds 2D-3D correspondences
 
   /// \param relative  2D-2D correspondences
   /// \param absolute  2D-3D correspondences
