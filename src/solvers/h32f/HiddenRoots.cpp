@@ -64,8 +64,8 @@ int Search::run() {
   for (int j = 0; j < kPieces; ++j) {
     // Beyond the last sample the interpolant is extrapolated.
     const double band = j == kPieces - 1 ? 20 * tolerance : tolerance;
-    searchPiece(pieces.positive, j, 1, band);
-    searchPiece(pieces.negative, j, -1, band);
+    for (int side = 0; side < 2; ++side)
+      if (!(pieces.low[side][j] > band || pieces.high[side][j] < -band)) searchPiece(pieces.b[side], j, side ? -1 : 1, band);
   }
   refineSimpleRoots();
   return count_;
@@ -86,9 +86,6 @@ bool Search::sample(double* y, double& tolerance) const {
 }
 
 void Search::searchPiece(const double (&coefficients)[kDegree + 1][kPieces], int j, double sign, double tolerance) {
-  double low = coefficients[0][j], high = low;
-  for (int i = 1; i <= kDegree; ++i) low = std::min(low, coefficients[i][j]), high = std::max(high, coefficients[i][j]);
-  if (low > tolerance || high < -tolerance) return;
   Piece piece;
   for (int i = 0; i <= kDegree; ++i) piece.b[i] = coefficients[i][j];
   piece.e0 = sign * tables_.breakpoints[j], piece.e1 = sign * tables_.breakpoints[j + 1];

@@ -67,8 +67,18 @@ static void bernsteinCoefficients(const SampleTables& tables, const double* samp
         even += sum[k] * load(&tables.even[i][k][j]);
         odd += difference[k] * load(&tables.odd[i][k][j]);
       }
-      store(&pieces.positive[i][j], even + odd);
-      store(&pieces.negative[i][j], even - odd);
+      store(&pieces.b[0][i][j], even + odd);
+      store(&pieces.b[1][i][j], even - odd);
+    }
+  for (int side = 0; side < 2; ++side)
+    for (int j = 0; j < kPieces; j += kWidth) {
+      Doubles low = load(&pieces.b[side][0][j]), high = low;
+      for (int i = 1; i <= kDegree; ++i) {
+        const Doubles b = load(&pieces.b[side][i][j]);
+        low = smaller(b, low), high = larger(b, high);
+      }
+      store(&pieces.low[side][j], low);
+      store(&pieces.high[side][j], high);
     }
 }
 
@@ -87,7 +97,7 @@ static void simpleRoots(const PowerForms& forms, int count, double* roots) {
       const Doubles inside = select<Doubles>((next >= low) & (next <= high), next, (low + high) / 2);
       const Doubles step = absolute(inside - t);
       t = inside;
-      if (bits((DoubleMask)(step > 1e-6)) == 0) break;
+      if (bits((DoubleMask)(step > 1e-5)) == 0) break;
     }
     store(roots + j, t);
   }

@@ -44,7 +44,7 @@ SampleTables::SampleTables() {
   long double norm = 0;
   for (long double weight : rational.weights) norm += weight * weight;
   for (int i = 0; i < kHalf; ++i) {
-    const auto k = static_cast<std::size_t>(kHalf + i);
+    const std::size_t k = kHalf + static_cast<std::size_t>(i);
     nodes[i] = static_cast<double>(rational.nodes[k]);
     nodes[i + kHalf] = -nodes[i];
     factors[i] = factors[i + kHalf] = factor(nodes[i]);
@@ -75,8 +75,8 @@ SampleTables::SampleTables() {
       const long double width = static_cast<long double>(breakpoints[j + 1]) - breakpoints[j];
       const std::vector<long double> cardinals = rational.cardinals(breakpoints[j] + width * x[i]);
       for (int k = 0; k < kHalf; ++k) {
-        const long double own = cardinals[static_cast<std::size_t>(kHalf + k)];
-        const long double mirrored = cardinals[static_cast<std::size_t>(kHalf - 1 - k)];
+        const auto n = static_cast<std::size_t>(k);
+        const long double own = cardinals[kHalf + n], mirrored = cardinals[kHalf - 1 - n];
         values(k, i) = (own + mirrored) / 2, values(k + kHalf, i) = (own - mirrored) / 2;
       }
     }

@@ -21,8 +21,8 @@ constexpr int kPieces = 16;
 constexpr int kDegree = 12;
 
 struct PieceCoefficients {
-  double positive[kDegree + 1][kPieces];  // y on piece j has the Bernstein coefficients positive[.][j],
-  double negative[kDegree + 1][kPieces];  // y on its mirror image, seen from -e, these
+  double b[2][kDegree + 1][kPieces];  // y on piece j has the Bernstein coefficients b[0][.][j], on its mirror image b[1][.][j]
+  double low[2][kPieces], high[2][kPieces];  // the smallest and the largest of them
 };
 
 struct SampleTables {
