@@ -90,11 +90,17 @@ void HybridArrays::fillPointColumns() {
   }
 }
 
+void HybridArrays::boundUnknownFocalLengths() {
+  const auto add = [this](double u, double v) { leastFocalLength_ = std::max({leastFocalLength_, std::abs(u), std::abs(v)}); };
+  for (const solvers::RayMatch& match : rays_) add(match.u, match.v);
+  for (const solvers::PointMatch& match : points_) add(match.u, match.v);
+}
+
 RayArrays HybridArrays::rayArrays() const {
   const std::size_t rows = padded(rays_.size());
   const auto column = [&](std::size_t k) { return rayColumns_.data() + k * rows; };
-  return {rays_.size(), column(0), column(1), column(2), column(3),  column(4),  column(5),
-          column(6),    column(7), column(8), column(9), column(10), column(11), column(12)};
+  return {rays_.size(), leastFocalLength_, column(0), column(1), column(2),  column(3),  column(4), column(5),
+          column(6),    column(7),         column(8), column(9), column(10), column(11), column(12)};
 }
 
 PointArrays HybridArrays::pointArrays() const {

@@ -30,6 +30,10 @@ class HybridArrays {
   HybridArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
                const std::vector<int>& indices2d3d);
 
+  // A rig camera of unknown focal length then has at least the largest coordinate of the query's image points as its own. Without
+  // this, the Sampson error of any data vanishes as the query's focal length goes to 0.
+  void boundUnknownFocalLengths();
+
   const Normalization& normalization() const { return normalization_; }
   // Element i is correspondence indices2d2d[i] (indices2d3d[i]), normalized.
   const std::vector<solvers::RayMatch>& rays() const { return rays_; }
@@ -43,6 +47,7 @@ class HybridArrays {
   void fillPointColumns();
 
   Normalization normalization_;
+  double leastFocalLength_ = 0;
   std::vector<solvers::RayMatch> rays_;
   std::vector<solvers::PointMatch> points_;
   std::vector<double> rayColumns_, pointColumns_;

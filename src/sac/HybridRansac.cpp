@@ -1,13 +1,79 @@
 #include "hybridgv/sac/HybridRansac.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "robust/HybridSearch.hpp"
+
 namespace hybridgv {
 namespace sac {
+namespace {
+
+void setMasks(const robust::HybridSearch& search, HybridRansacResult& result) {
+  std::vector<char> rays, points;
+  search.scorer().inliers(search.best().pose, rays, points);
+  for (std::size_t i = 0; i < rays.size(); ++i) result.inliers2d2d[static_cast<std::size_t>(search.rayIndices()[i])] = rays[i];
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.inliers2d3d[static_cast<std::size_t>(search.pointIndices()[i])] = points[i];
+  result.numberInliers2d2d = static_cast<int>(std::count(rays.begin(), rays.end(), 1));
+  result.numberInliers2d3d = static_cast<int>(std::count(points.begin(), points.end(), 1));
+}
+
+// From the normalized frame to the rig's, where positions are `unit` times larger.
+void setCovariance(const robust::Matrix7& normalized, double unit, HybridRansacResult& result) {
+  Eigen::Matrix<double, robust::kParameters, 1> scale = Eigen::Matrix<double, robust::kParameters, 1>::Ones();
+  scale.segment<3>(3).setConstant(unit);
+  const robust::Matrix7 covariance = scale.asDiagonal() * normalized * scale.asDiagonal();
+  for (int row = 0; row < robust::kParameters; ++row)
+    for (int column = 0; column < robust::kParameters; ++column)
+      result.covariance[static_cast<std::size_t>(row * robust::kParameters + column)] = covariance(row, column);
+  result.focalLengthStandardDeviation = result.pose.focalLength * std::sqrt(covariance(6, 6));
+}
+
+void setStatistics(const robust::HybridSearch& search, HybridRansacResult& result) {
+  result.iterations = search.iterations();
+  result.localOptimizations = search.localOptimizations();
+  result.stopReason = search.stopReason();
+  for (std::size_t s = 0; s < search.choice().strategies().size(); ++s)
+    result.iterationsPerSolver[search.choice().strategies()[s].solver] += search.choice().drawn()[s];
+}
+
+void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, HybridRansacResult& result) {
+  const robust::FinalPose final = search.finish(options.finalOptimization);
+  const robust::Normalization& normalization = search.scorer().arrays().normalization();
+  result.pose = normalization.undo(final.pose);
+  result.noise2d2d = final.noise.rays, result.noise2d3d = final.noise.points;
+  result.score = search.best().evaluation.score;
+  result.solver = search.best().solver;
+  setMasks(search, result);
+  robust::Matrix7 covariance;
+  const bool determined = robust::invertInformation(final.information, covariance);
+  if (determined) setCovariance(covariance, normalization.unit, result);
+  result.failureReason = search.verify(determined);
+  result.success = result.failureReason == FailureReason::None;
+}
+
+}  // namespace
 
 HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, const HybridRansacOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
   options.check();
   HybridRansacResult result;
   result.inliers2d2d.resize(adapter.getNumberCorrespondences2d2d());
   result.inliers2d3d.resize(adapter.getNumberCorrespondences2d3d());
+  result.covariance.fill(std::numeric_limits<double>::infinity());
+
+  robust::HybridSearch search(adapter, options, start);
+  if (!search.canStart()) {
+    result.failureReason = FailureReason::TooFewCorrespondences;
+  } else {
+    search.run();
+    setStatistics(search, result);
+    if (search.hasModel()) setPose(search, options, result);
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 

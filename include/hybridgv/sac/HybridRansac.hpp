@@ -50,8 +50,7 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] larger ones are no solutions
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
-  std::vector<SolverPrior> solvers = {
-      {Solver::P4Pf, 1}, {Solver::P35Pf, 1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
+  std::vector<SolverPrior> solvers = {{Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H51f, 1}};
   Scoring scoring = Scoring::Msac;
   Sampling sampling = Sampling::QualityOrdered;
   bool localOptimization = true;  ///< optimize every new best model over its inliers

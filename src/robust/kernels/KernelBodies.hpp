@@ -95,7 +95,7 @@ struct Reprojection {
 // ---- 2D-2D: e = C / sqrt(G), see sampsonError ----
 
 struct Epipolar {
-  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Real inverseSquaredFocal) {
+  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Real unknownPixel) {
     direction = {load(rays.dx + i), load(rays.dy + i), load(rays.dz + i)};
     imageNormal = {load(rays.ax + i), load(rays.ay + i), load(rays.az + i)};
     const Vec centre{load(rays.cx + i), load(rays.cy + i), load(rays.cz + i)};
@@ -105,7 +105,7 @@ struct Epipolar {
     l = cross(t, direction);
     n = cross(w, t);
     s = cross(w, direction);
-    squaredPixelOfQuery = load(rays.isUnknown + i) * inverseSquaredFocal;
+    squaredPixelOfQuery = load(rays.isUnknown + i) * unknownPixel;
     squaredPixel = load(rays.squaredPixel + i) + squaredPixelOfQuery;
     l1 = dot(pose.r1, l), l2 = dot(pose.r2, l);
     alongNormal = dot(imageNormal, n);
@@ -122,7 +122,11 @@ struct Epipolar {
   Real constraint, variance;  // C, G
 };
 
-inline Real inverseSquare(Real value) { return 1.0 / (value * value); }
+// 1/g^2 of a map image with unknown focal length.
+inline double squaredPixelOfUnknown(const RayArrays& rays, const PlainPose& pose) {
+  const double g = pose.focalLength < rays.leastFocalLength ? rays.leastFocalLength : pose.focalLength;
+  return 1 / (g * g);
+}
 
 // ---- errors and scores ----
 
@@ -138,9 +142,9 @@ void squaredPointErrors(const PointArrays& points, const PlainPose& plainPose, d
 
 void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
   const Pose pose(plainPose);
-  const Real inverseSquaredFocal = inverseSquare(pose.f);
+  const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
   for (std::size_t i = 0; i < rays.size; i += HYBRIDGV_LANES) {
-    const Epipolar ray(rays, i, pose, inverseSquaredFocal);
+    const Epipolar ray(rays, i, pose, unknownPixel);
     const Real error = ray.squaredError();
     const Real squared = where(ray.inFront() & (error < kInfinity), error, all(kInfinity));
     std::memcpy(errors + i, &squared, sizeof squared);
@@ -175,10 +179,10 @@ Score scorePoints(const PointArrays& points, const PlainPose& plainPose, double 
 
 Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double squaredThreshold, std::size_t begin, std::size_t end) {
   const Pose pose(plainPose);
-  const Real inverseSquaredFocal = inverseSquare(pose.f);
+  const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
   ScoreSum result(squaredThreshold);
   forRange(begin, end, [&](std::size_t i, Mask inRange) {
-    const Epipolar ray(rays, i, pose, inverseSquaredFocal);
+    const Epipolar ray(rays, i, pose, unknownPixel);
     result.add(ray.inFront() & inRange, ray.squaredError());
   });
   return result.score();
@@ -292,10 +296,11 @@ void addPoints(const PointArrays& points, const PlainPose& plainPose, const Type
 // where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
 void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
   const Pose pose(plainPose);
-  const Real inverseSquaredFocal = inverseSquare(pose.f);
+  const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
+  const bool pixelVaries = plainPose.focalLength >= rays.leastFocalLength;
   NormalEquationsSum sums(loss);
   forRange(0, rays.size, [&](std::size_t i, Mask inRange) {
-    const Epipolar ray(rays, i, pose, inverseSquaredFocal);
+    const Epipolar ray(rays, i, pose, unknownPixel);
     const Real squaredError = ray.squaredError();
     Mask valid = (ray.variance > 0) & (squaredError < kInfinity);
     if (loss.loss != Loss::Quadratic) valid &= ray.inFront();
@@ -308,7 +313,8 @@ void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& 
     const Vec constraintByRotation = cross(ray.image, Vec{ray.l1, ray.l2, l3});
     const Vec mapByRotation = h * pose.toQuery(cross(ray.w, tm));
     const Vec varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
-    const Real varianceByFocal = h * pose.f * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
+    const Real pixelByFocal = pixelVaries ? ray.squaredPixelOfQuery * ray.varianceInMap : Real{};
+    const Real varianceByFocal = h * pose.f * dot(pose.r3, tm) - pixelByFocal;
     const Real ratio = ray.constraint / variance;
     const Row derivatives = {constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x),
                              constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1),

@@ -1,0 +1,38 @@
+// How many inliers a wrong pose has by chance, and whether a pose has more.
+#pragma once
+
+#include "robust/HybridArrays.hpp"
+#include "robust/Sampler.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+// Numbers of inliers and of correspondences of both types.
+struct Support {
+  int points = 0, allPoints = 0, rays = 0, allRays = 0;
+};
+
+class ChanceModel {
+ public:
+  // Image points of outliers are taken as uniform over the bounding box of all image points. Then a wrong pose has the share
+  // pi T^2 / area of the points as inliers, and the share 2 sqrt(2) T diagonal / area of the rays: an epipolar line is at most as
+  // long as the diagonal, and both images take their part of the Sampson error.
+  ChanceModel(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError);
+
+  double rayShare() const { return rayShare_; }
+  double pointShare() const { return pointShare_; }
+
+  // Upper bound of the log10 of the expected number of wrong poses with at least this support among `tests` of them, each of
+  // which has been fitted: `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
+  double logFalseAlarms(const Support& support, int parameters, double tests) const;
+
+ private:
+  double rayShare_, pointShare_;
+};
+
+// Upper bound of the natural log of the probability that of n events with probability p each, at least k happen:
+// -n KL(k/n, p) (Chernoff).
+double logTail(int n, int k, double p);
+
+}  // namespace robust
+}  // namespace hybridgv

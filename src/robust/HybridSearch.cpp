@@ -1,0 +1,234 @@
+#include "robust/HybridSearch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "robust/SampleCheck.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+// Batches grow, because what was learnt from one steers the next.
+constexpr int kFirstBatch = 16, kLargestBatch = 128;
+// Streams of random numbers apart from those of the hypotheses.
+constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
+// log10 of the expected number of wrong poses that look like the result.
+constexpr double kLogFalseAlarms = -6;
+constexpr double kDistanceFactor = 1.3;
+// A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
+constexpr double kUnoptimizedShare = 0.5;
+
+// The indices 0 .. count-1 in random order.
+std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t stream) {
+  std::vector<int> order = allIndices(count);
+  RandomStream random(seed, stream);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  return order;
+}
+
+// Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
+template <class Weight>
+std::vector<int> byQuality(const std::vector<int>& indices, Weight weight) {
+  std::vector<int> order = allIndices(indices.size());
+  const auto weightOf = [&](int i) { return weight(static_cast<std::size_t>(indices[static_cast<std::size_t>(i)])); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
+  return order;
+}
+
+Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const HybridArrays& arrays, const std::vector<int>& rayIndices,
+                    const std::vector<int>& pointIndices, sac::Sampling sampling) {
+  std::vector<int> cameras;
+  for (const solvers::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
+  if (sampling == sac::Sampling::Uniform) return {cameras, allIndices(rayIndices.size()), allIndices(pointIndices.size()), false};
+  std::vector<int> rays = byQuality(rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
+  std::vector<int> points = byQuality(pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
+  const bool weightsDiffer = !std::is_sorted(rays.begin(), rays.end()) || !std::is_sorted(points.begin(), points.end());
+  return {cameras, std::move(rays), std::move(points), weightsDiffer};
+}
+
+HybridArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
+                        const std::vector<int>& points) {
+  HybridArrays arrays(adapter, rays, points);
+  arrays.boundUnknownFocalLengths();
+  return arrays;
+}
+
+}  // namespace
+
+HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,
+                           Clock::time_point start)
+    : options_(options),
+      start_(start),
+      rayIndices_(shuffled(adapter.getNumberCorrespondences2d2d(), options.seed, kRayOrderStream)),
+      pointIndices_(shuffled(adapter.getNumberCorrespondences2d3d(), options.seed, kPointOrderStream)),
+      arrays_(readArrays(adapter, rayIndices_, pointIndices_)),
+      sampler_(makeSampler(adapter, arrays_, rayIndices_, pointIndices_, options.sampling)),
+      choice_(makeStrategies(options.solvers, sampler_)),
+      scorer_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
+      optimizer_(scorer_, options.minFocalLength, options.maxFocalLength),
+      chance_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
+      workers_(options.threads),
+      solutions_(workers_.size()) {}
+
+void HybridSearch::run() {
+  if (options_.initialPose) tryInitialPose();
+  if (choice_.strategies().empty()) return;
+  for (int batch = kFirstBatch; !isDone(); batch = std::min(2 * batch, kLargestBatch))
+    tryBatch(std::min(batch, options_.maxIterations - iterations_));
+}
+
+void HybridSearch::tryInitialPose() {
+  Model model;
+  model.pose = arrays_.normalization().apply(*options_.initialPose);
+  model.evaluation = scorer_.evaluate(model.pose);
+  if (model.evaluation.score > 0) consider(model);
+}
+
+void HybridSearch::tryBatch(int count) {
+  std::vector<Attempt> attempts(static_cast<std::size_t>(count));
+  workers_.forEach(count, [&](int i, std::size_t worker) {
+    if (!isOutOfTime()) attempts[static_cast<std::size_t>(i)] = tryHypothesis(iterations_ + i + 1, solutions_[worker]);
+  });
+  const Model* candidate = nullptr;
+  for (const Attempt& attempt : attempts) {
+    if (!attempt.tried) continue;
+    ++iterations_;
+    choice_.addDraws(attempt.strategy, 1);
+    const double toBeat = candidate ? candidate->evaluation.score : 0;
+    if (attempt.model.evaluation.score > toBeat) candidate = &attempt.model;
+  }
+  choice_.update();
+  if (candidate) consider(*candidate);
+}
+
+HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutions) const {
+  RandomStream random(options_.seed, static_cast<std::uint64_t>(number));
+  Attempt attempt;
+  attempt.tried = true;
+  attempt.strategy = choice_.choose(random.uniform());
+  const Strategy& strategy = choice_.strategies()[attempt.strategy];
+  const Sample sample = sampler_.draw(strategy.size, number, random);
+
+  solvers::RayMatch rays[kMaxSampleSize];
+  solvers::PointMatch points[kMaxSampleSize];
+  for (int k = 0; k < strategy.size.rays; ++k) rays[k] = arrays_.rays()[static_cast<std::size_t>(sample.rays[k])];
+  for (int k = 0; k < strategy.size.points; ++k) points[k] = arrays_.points()[static_cast<std::size_t>(sample.points[k])];
+  if (isDegenerate(rays, strategy.size.rays, points, strategy.size.points)) return attempt;
+
+  const int found = strategy.solve(rays, points, solutions.data());
+  attempt.model.solver = strategy.solver;
+  for (int k = 0; k < found; ++k) considerSolution(solutions[static_cast<std::size_t>(k)], attempt);
+  return attempt;
+}
+
+void HybridSearch::considerSolution(const FocalPose& pose, Attempt& attempt) const {
+  if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
+  Expectation expectation = expectation_;
+  expectation.score = std::max(expectation.score, attempt.model.evaluation.score);
+  const Evaluation evaluation = scorer_.evaluate(pose, expectation);
+  if (!evaluation.complete) return;
+  attempt.model.pose = pose;
+  attempt.model.evaluation = evaluation;
+}
+
+void HybridSearch::consider(const Model& candidate) {
+  bestUnoptimizedScore_ = std::max(bestUnoptimizedScore_, candidate.evaluation.score);
+  Model optimized = candidate;
+  if (options_.localOptimization) {
+    optimizeFrom(candidate.pose, optimized);
+    if (optimized.evaluation.score > best_.evaluation.score) changeDistance(optimized);
+  }
+  if (optimized.evaluation.score > best_.evaluation.score) setBest(optimized);
+}
+
+bool HybridSearch::optimizeFrom(const FocalPose& start, Model& model) {
+  ++localOptimizations_;
+  const FocalPose pose = optimizer_.refine(start);
+  const Evaluation evaluation = scorer_.evaluate(pose);
+  if (!(evaluation.score > model.evaluation.score)) return false;
+  model.pose = pose;
+  model.evaluation = evaluation;
+  return true;
+}
+
+// Noisy points give local optima at wrong distances with the matching focal length. From there the right one is found by moving
+// along the optical axis while the focal length keeps the images' size.
+void HybridSearch::changeDistance(Model& model) {
+  for (const double factor : {kDistanceFactor, 1 / kDistanceFactor})
+    while (optimizeFrom(optimizer_.atDistance(model.pose, factor), model)) {
+    }
+}
+
+void HybridSearch::setBest(const Model& model) {
+  best_ = model;
+  bestIsSignificant_ = isSignificant(model.evaluation);
+  if (!bestIsSignificant_) return;
+  std::vector<char> rays, points;
+  scorer_.inliers(model.pose, rays, points);
+  const InlierCounts inliers = sampler_.count(rays, points);
+  std::vector<double> probabilities;
+  for (const Strategy& strategy : choice_.strategies())
+    probabilities.push_back((1 - kFalseRejection) * sampler_.allInlierProbability(strategy.size, inliers));
+  choice_.setAllInlierProbabilities(probabilities);
+
+  const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
+  expectation_.goodShare[0] = share(inliers.rays, sampler_.numberRays());
+  expectation_.goodShare[1] = share(inliers.points, sampler_.numberPoints());
+  expectation_.chanceShare[0] = chance_.rayShare(), expectation_.chanceShare[1] = chance_.pointShare();
+}
+
+Support HybridSearch::support(const Evaluation& evaluation) const {
+  return {evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
+}
+
+bool HybridSearch::isSignificant(const Evaluation& evaluation) const {
+  return chance_.logFalseAlarms(support(evaluation), kParameters, iterations_ + 1) < kLogFalseAlarms;
+}
+
+bool HybridSearch::isOutOfTime() const {
+  return std::isfinite(options_.timeBudgetSeconds) &&
+         std::chrono::duration<double>(Clock::now() - start_).count() > options_.timeBudgetSeconds;
+}
+
+bool HybridSearch::isDone() {
+  if (isOutOfTime()) {
+    stopReason_ = sac::StopReason::TimeBudget;
+  } else if (iterations_ >= options_.maxIterations) {
+    stopReason_ = sac::StopReason::MaxIterations;
+  } else if (bestIsSignificant_ && iterations_ >= options_.minIterations &&
+             choice_.missProbability() < 1 - options_.successProbability) {
+    stopReason_ = sac::StopReason::Confident;
+  }
+  return stopReason_ != sac::StopReason::NotStarted;
+}
+
+FinalPose HybridSearch::finish(bool optimize) {
+  FinalPose result = optimizer_.polish(best_.pose, optimize);
+  best_.pose = result.pose;
+  best_.evaluation = scorer_.evaluate(best_.pose);
+  return result;
+}
+
+// One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
+// chance, with one parameter left to fit.
+sac::FailureReason HybridSearch::verify(bool isRegular) const {
+  const double tests = iterations_ + 1;
+  if (!isSignificant(best_.evaluation)) return sac::FailureReason::InliersMayBeChance;
+  std::vector<char> rays, points;
+  scorer_.inliers(best_.pose, rays, points);
+  const std::vector<int> perCamera = sampler_.count(rays, points).raysPerCamera;
+  const auto largest = std::max_element(perCamera.begin(), perCamera.end());
+  if (largest != perCamera.end() && *largest >= kParameters - 1) {
+    Support rest = support(best_.evaluation);
+    rest.rays -= *largest;
+    rest.allRays -= sampler_.numberRays(static_cast<std::size_t>(largest - perCamera.begin()));
+    if (!(chance_.logFalseAlarms(rest, 1, tests) < kLogFalseAlarms)) return sac::FailureReason::UndeterminedPose;
+  }
+  return isRegular ? sac::FailureReason::None : sac::FailureReason::UndeterminedPose;
+}
+
+}  // namespace robust
+}  // namespace hybridgv

@@ -1,0 +1,98 @@
+// The search for the best pose: hypotheses in batches, local optimization of every new best one.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hybridgv/sac/HybridRansac.hpp"
+#include "robust/ChanceModel.hpp"
+#include "robust/LocalOptimizer.hpp"
+#include "robust/PoseScorer.hpp"
+#include "robust/SolverChoice.hpp"
+#include "robust/WorkerPool.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+using Clock = std::chrono::steady_clock;
+
+// A pose (in the normalized frame) with its evaluation.
+struct Model {
+  FocalPose pose;
+  Evaluation evaluation;
+  std::optional<Solver> solver;
+};
+
+// Hypotheses are tried in batches. Within a batch each one depends on its number and on what was known before the batch only, so
+// that the threads may try them in any order.
+class HybridSearch {
+ public:
+  HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options, Clock::time_point start);
+
+  bool canStart() const { return !choice_.strategies().empty() || options_.initialPose; }
+  void run();
+  // Final optimization of the best model (or only its noise and information).
+  FinalPose finish(bool optimize);
+  // Whether the best model is more than chance, and determined. `isRegular`: its information matrix is.
+  sac::FailureReason verify(bool isRegular) const;
+
+  bool hasModel() const { return best_.evaluation.score > 0; }
+  const Model& best() const { return best_; }
+  const PoseScorer& scorer() const { return scorer_; }
+  const SolverChoice& choice() const { return choice_; }
+  // The adapter's indices of the arrays' entries.
+  const std::vector<int>& rayIndices() const { return rayIndices_; }
+  const std::vector<int>& pointIndices() const { return pointIndices_; }
+  int iterations() const { return iterations_; }
+  int localOptimizations() const { return localOptimizations_; }
+  sac::StopReason stopReason() const { return stopReason_; }
+
+ private:
+  // What a hypothesis came to: its best solution, if that can matter.
+  struct Attempt {
+    std::size_t strategy = 0;
+    bool tried = false;
+    Model model;
+  };
+
+  using Solutions = std::array<FocalPose, solvers::kMaxSolutions>;
+
+  void tryInitialPose();
+  void tryBatch(int count);
+  Attempt tryHypothesis(int number, Solutions& solutions) const;
+  void considerSolution(const FocalPose& pose, Attempt& attempt) const;
+  void consider(const Model& candidate);
+  // Optimizes a start; replaces the model and returns true if the result is better.
+  bool optimizeFrom(const FocalPose& start, Model& model);
+  void changeDistance(Model& model);
+  void setBest(const Model& model);
+  bool isSignificant(const Evaluation& evaluation) const;
+  bool isDone();
+  bool isOutOfTime() const;
+  Support support(const Evaluation& evaluation) const;
+
+  const sac::HybridRansacOptions& options_;
+  Clock::time_point start_;
+  std::vector<int> rayIndices_, pointIndices_;
+  HybridArrays arrays_;
+  Sampler sampler_;
+  SolverChoice choice_;
+  PoseScorer scorer_;
+  LocalOptimizer optimizer_;
+  ChanceModel chance_;
+  WorkerPool workers_;
+  std::vector<Solutions> solutions_;  // one scratch buffer per worker
+
+  Model best_;
+  double bestUnoptimizedScore_ = 0;
+  bool bestIsSignificant_ = false;
+  Expectation expectation_;
+  int iterations_ = 0, localOptimizations_ = 0;
+  sac::StopReason stopReason_ = sac::StopReason::NotStarted;
+};
+
+}  // namespace robust
+}  // namespace hybridgv

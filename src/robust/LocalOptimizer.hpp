@@ -1,0 +1,46 @@
+// Local optimization of a pose over the inliers of both types.
+#pragma once
+
+#include "robust/LeastSquares.hpp"
+#include "robust/PoseScorer.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+// Robust standard deviations of the inliers' errors [px].
+struct Noise {
+  double rays = 0;    // Sampson error
+  double points = 0;  // reprojection error, per coordinate
+};
+
+struct FinalPose {
+  FocalPose pose;
+  Noise noise;
+  Matrix7 information = Matrix7::Zero();  // of the pose, for this noise
+};
+
+class LocalOptimizer {
+ public:
+  LocalOptimizer(const PoseScorer& scorer, double minFocalLength, double maxFocalLength);
+
+  // From a minimal solution to a local optimum of the truncated squared errors. The truncation starts wide, because a solution
+  // from noisy points is far from most viewing rays, and narrows down to the thresholds.
+  FocalPose refine(const FocalPose& start) const;
+  // From a local optimum to the most likely pose: each type is weighed by its own noise, and truncated where errors are
+  // improbable. Without `optimize` only the noise and the information of the start.
+  FinalPose polish(const FocalPose& start, bool optimize) const;
+  // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
+  // focal length. Without points the origin stands for them.
+  FocalPose atDistance(const FocalPose& pose, double factor) const;
+  Noise noise(const FocalPose& pose) const;
+
+ private:
+  FocalPose truncated(const FocalPose& start, double rayScale, double pointScale, const Noise& noise, int iterations,
+                      double minDecrease) const;
+
+  const PoseScorer& scorer_;
+  double minFocalLength_, maxFocalLength_;
+};
+
+}  // namespace robust
+}  // namespace hybridgv

@@ -1,0 +1,64 @@
+// The score of a pose over all correspondences.
+#pragma once
+
+#include <vector>
+
+#include "hybridgv/sac/HybridRansac.hpp"
+#include "robust/HybridArrays.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+struct Evaluation {
+  double score = 0;
+  int points = 0, rays = 0;  // inliers
+  bool complete = false;     // false: given up as hopeless
+};
+
+// When to give up on a pose. It must be able to exceed `score`, and must not look like one whose inliers are chance: Wald's
+// sequential test between the inlier shares of a pose worth keeping and of a wrong one.
+struct Expectation {
+  double score = 0;
+  double goodShare[2] = {0, 0}, chanceShare[2] = {0, 0};  // of 2D-2D, 2D-3D; no test of a type whose good share is not larger
+};
+
+// Probability that the sequential test gives up a pose that has the good shares.
+constexpr double kFalseRejection = 0.01;
+
+class PoseScorer {
+ public:
+  // The arrays must outlive the scorer and be in random order.
+  PoseScorer(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring);
+
+  Evaluation evaluate(const FocalPose& pose) const;
+  Evaluation evaluate(const FocalPose& pose, const Expectation& expectation) const;
+  // Squared errors below the square of a type's threshold.
+  void inliers(const FocalPose& pose, std::vector<char>& rays, std::vector<char>& points) const;
+  // Errors of one type at a pose, infinite for those that are no inliers.
+  std::vector<double> squaredRayErrors(const FocalPose& pose) const;
+  std::vector<double> squaredPointErrors(const FocalPose& pose) const;
+
+  const HybridArrays& arrays() const { return arrays_; }
+  double maxEpipolarError() const { return maxEpipolarError_; }
+  double maxReprojectionError() const { return maxReprojectionError_; }
+
+ private:
+  struct Chunk {
+    bool isRays;
+    std::size_t begin, end;
+  };
+  void makeChunks();
+  Score score(const Chunk& chunk, const PlainPose& pose) const;
+  double gain(const Score& score) const;
+
+  const HybridArrays& arrays_;
+  const Kernels& kernels_;
+  PointArrays points_;
+  RayArrays rays_;
+  double maxEpipolarError_, maxReprojectionError_;
+  sac::Scoring scoring_;
+  std::vector<Chunk> chunks_;
+};
+
+}  // namespace robust
+}  // namespace hybridgv

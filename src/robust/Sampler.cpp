@@ -1,0 +1,166 @@
+#include "robust/Sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+int size(const std::vector<int>& list) { return static_cast<int>(list.size()); }
+
+// `count` different ones of list[0 .. pool-1] (Floyd's algorithm).
+void drawDifferent(const std::vector<int>& list, int pool, int count, RandomStream& random, int* sample) {
+  int position[kMaxSampleSize];
+  for (int k = 0; k < count; ++k) {
+    const int last = pool - count + k;
+    const int candidate = random.below(last + 1);
+    position[k] = std::find(position, position + k, candidate) == position + k ? candidate : last;
+    sample[k] = list[static_cast<std::size_t>(position[k])];
+  }
+}
+
+}  // namespace
+
+double hypergeometricAll(int total, int good, int drawn) {
+  double probability = 1;
+  for (int i = 0; i < drawn; ++i) probability *= static_cast<double>(std::max(good - i, 0)) / (total - i);
+  return probability;
+}
+
+Sampler::Sampler(const std::vector<int>& cameraOfRay, std::vector<int> rayOrder, std::vector<int> pointOrder, bool growingPools)
+    : rayOrder_(std::move(rayOrder)), pointOrder_(std::move(pointOrder)), growingPools_(growingPools) {
+  std::map<int, std::vector<int>> byCamera;
+  for (const int ray : rayOrder_) byCamera[cameraOfRay[static_cast<std::size_t>(ray)]].push_back(ray);
+  for (auto& entry : byCamera) raysOfCamera_.push_back(std::move(entry.second));
+}
+
+bool Sampler::canDraw(const SampleSize& sample) const {
+  if (size(pointOrder_) < sample.points || size(rayOrder_) < sample.rays) return false;
+  if (sample.rayDraw != RayDraw::OneCamera) return true;
+  return std::any_of(raysOfCamera_.begin(), raysOfCamera_.end(),
+                     [&](const std::vector<int>& rays) { return size(rays) >= sample.rays; });
+}
+
+int Sampler::poolSize(int available, int sampleSize, int number) const {
+  if (!growingPools_ || number >= kGrowth) return available;
+  const double pool = available * std::pow(number / kGrowth, 1.0 / sampleSize);
+  return std::clamp(static_cast<int>(std::ceil(pool)), std::min(sampleSize + 1, available), available);
+}
+
+Sample Sampler::draw(const SampleSize& wanted, int number, RandomStream& random) const {
+  Sample sample;
+  const int total = wanted.rays + wanted.points;
+  drawDifferent(pointOrder_, poolSize(size(pointOrder_), total, number), wanted.points, random, sample.points);
+  switch (wanted.rayDraw) {
+    case RayDraw::Uniform:
+      drawDifferent(rayOrder_, poolSize(size(rayOrder_), total, number), wanted.rays, random, sample.rays);
+      break;
+    case RayDraw::OneCamera:
+      drawOneCamera(wanted.rays, number, random, sample.rays);
+      break;
+    case RayDraw::Spread:
+      drawSpread(wanted.rays, number, random, sample.rays);
+      break;
+  }
+  return sample;
+}
+
+void Sampler::drawOneCamera(int count, int number, RandomStream& random, int* sample) const {
+  int total = 0;
+  for (const auto& rays : raysOfCamera_) total += size(rays) >= count ? size(rays) : 0;
+  int chosen = random.below(total);
+  for (const auto& rays : raysOfCamera_) {
+    if (size(rays) < count) continue;
+    if (chosen < size(rays)) return drawDifferent(rays, poolSize(size(rays), count + 1, number), count, random, sample);
+    chosen -= size(rays);
+  }
+}
+
+// Round by round: every camera that has rays left gives one, in the last round a random subset of them does.
+void Sampler::drawSpread(int count, int number, RandomStream& random, int* sample) const {
+  std::vector<int> eligible(raysOfCamera_.size());
+  std::iota(eligible.begin(), eligible.end(), 0);
+  std::vector<int> drawn(raysOfCamera_.size(), 0);
+  for (int round = 0, left = count; left > 0; ++round) {
+    const auto exhausted = [&](int camera) { return size(raysOfCamera_[static_cast<std::size_t>(camera)]) <= round; };
+    eligible.erase(std::remove_if(eligible.begin(), eligible.end(), exhausted), eligible.end());
+    int cameras[kMaxSampleSize];
+    const int taken = std::min(left, size(eligible));
+    drawDifferent(eligible, size(eligible), taken, random, cameras);
+    for (int k = 0; k < taken; ++k) ++drawn[static_cast<std::size_t>(cameras[k])];
+    left -= taken;
+  }
+  for (std::size_t camera = 0; camera < drawn.size(); ++camera) {
+    const std::vector<int>& rays = raysOfCamera_[camera];
+    const int pool = std::max(poolSize(size(rays), count + 1, number), drawn[camera]);
+    drawDifferent(rays, pool, drawn[camera], random, sample);
+    sample += drawn[camera];
+  }
+}
+
+double Sampler::allInlierProbability(const SampleSize& wanted, const InlierCounts& inliers) const {
+  const double points = hypergeometricAll(size(pointOrder_), inliers.points, wanted.points);
+  switch (wanted.rayDraw) {
+    case RayDraw::Uniform:
+      return points * hypergeometricAll(size(rayOrder_), inliers.rays, wanted.rays);
+    case RayDraw::OneCamera:
+      return points * oneCameraProbability(wanted.rays, inliers);
+    case RayDraw::Spread:
+      return points * spreadProbability(wanted.rays, inliers);
+  }
+  return 0;
+}
+
+double Sampler::oneCameraProbability(int count, const InlierCounts& inliers) const {
+  double sum = 0;
+  int total = 0;
+  for (std::size_t camera = 0; camera < raysOfCamera_.size(); ++camera) {
+    const int rays = size(raysOfCamera_[camera]);
+    if (rays < count) continue;
+    sum += rays * hypergeometricAll(rays, inliers.raysPerCamera[camera], count);
+    total += rays;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+// In the last round a random subset of m of the K cameras that have rays left gives a ray each. With h the probability that the
+// rays of the full rounds are inliers, and r_k the probability that one more of camera k is, the mean over all subsets is
+// h e_m(r_1, .., r_K) / binomial(K, m), e_m the elementary symmetric polynomial.
+double Sampler::spreadProbability(int count, const InlierCounts& inliers) const {
+  int fullRounds = 0, left = count;
+  const auto eligible = [&](int round) {
+    return static_cast<int>(std::count_if(raysOfCamera_.begin(), raysOfCamera_.end(),
+                                          [&](const std::vector<int>& rays) { return size(rays) > round; }));
+  };
+  while (eligible(fullRounds) <= left && left > 0) left -= eligible(fullRounds++);
+
+  double full = 1, symmetric[kMaxSampleSize + 1] = {1}, subsets = 1;
+  for (std::size_t camera = 0; camera < raysOfCamera_.size(); ++camera) {
+    const int rays = size(raysOfCamera_[camera]), good = inliers.raysPerCamera[camera];
+    full *= hypergeometricAll(rays, good, std::min(rays, fullRounds));
+    if (rays <= fullRounds) continue;
+    const double oneMore = static_cast<double>(std::max(good - fullRounds, 0)) / (rays - fullRounds);
+    for (int m = left; m > 0; --m) symmetric[m] += oneMore * symmetric[m - 1];
+  }
+  for (int m = 0; m < left; ++m) subsets *= static_cast<double>(eligible(fullRounds) - m) / (m + 1);
+  return full * symmetric[left] / subsets;
+}
+
+InlierCounts Sampler::count(const std::vector<char>& inlierRays, const std::vector<char>& inlierPoints) const {
+  const auto countIn = [](const std::vector<char>& mask, const std::vector<int>& list) {
+    return static_cast<int>(
+        std::count_if(list.begin(), list.end(), [&](int i) { return mask[static_cast<std::size_t>(i)] != 0; }));
+  };
+  InlierCounts result;
+  result.points = countIn(inlierPoints, pointOrder_);
+  for (const std::vector<int>& rays : raysOfCamera_) result.raysPerCamera.push_back(countIn(inlierRays, rays));
+  result.rays = std::accumulate(result.raysPerCamera.begin(), result.raysPerCamera.end(), 0);
+  return result;
+}
+
+}  // namespace robust
+}  // namespace hybridgv

@@ -1,0 +1,74 @@
+// Random minimal samples, and the probabilities that they contain inliers only.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "robust/RandomStream.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+constexpr int kMaxSampleSize = 6;
+
+// How the rays of a sample are chosen among the rig cameras.
+enum class RayDraw {
+  Uniform,    // every set of rays is equally likely
+  OneCamera,  // all from one camera, drawn with probability proportional to its number of rays
+  Spread,     // from as many cameras as possible, each camera as likely as the other
+};
+
+struct SampleSize {
+  int rays, points;
+  RayDraw rayDraw;
+};
+
+struct Sample {
+  int rays[kMaxSampleSize], points[kMaxSampleSize];
+};
+
+// Inliers of a pose, by what a sample can be drawn from.
+struct InlierCounts {
+  int points = 0, rays = 0;
+  std::vector<int> raysPerCamera;  // the rig cameras that have rays, by increasing number
+};
+
+class Sampler {
+ public:
+  // cameraOfRay: the rig camera of each ray (any numbers). Correspondences are drawn from the front of rayOrder and pointOrder
+  // first where growingPools is set: the pool of sample t holds the first N (t / kGrowth)^(1/m) of N, m the size of the sample.
+  Sampler(const std::vector<int>& cameraOfRay, std::vector<int> rayOrder, std::vector<int> pointOrder, bool growingPools);
+
+  // Whether there are enough correspondences.
+  bool canDraw(const SampleSize& size) const;
+  // The `number`-th sample (1, 2, ..). Needs canDraw(size).
+  Sample draw(const SampleSize& size, int number, RandomStream& random) const;
+  // Probability that a sample drawn from everything (no growing pools) has inliers only: exact.
+  double allInlierProbability(const SampleSize& size, const InlierCounts& inliers) const;
+
+  int numberRays() const { return static_cast<int>(rayOrder_.size()); }
+  int numberRays(std::size_t camera) const { return static_cast<int>(raysOfCamera_[camera].size()); }
+  int numberPoints() const { return static_cast<int>(pointOrder_.size()); }
+  int numberCameras() const { return static_cast<int>(raysOfCamera_.size()); }
+  // Inliers among rays and points by their masks.
+  InlierCounts count(const std::vector<char>& inlierRays, const std::vector<char>& inlierPoints) const;
+
+ private:
+  static constexpr double kGrowth = 1000;
+
+  int poolSize(int available, int sampleSize, int number) const;
+  void drawOneCamera(int count, int number, RandomStream& random, int* sample) const;
+  void drawSpread(int count, int number, RandomStream& random, int* sample) const;
+  double oneCameraProbability(int count, const InlierCounts& inliers) const;
+  double spreadProbability(int count, const InlierCounts& inliers) const;
+
+  std::vector<int> rayOrder_, pointOrder_;
+  std::vector<std::vector<int>> raysOfCamera_;
+  bool growingPools_;
+};
+
+// Probability that `drawn` of `total`, without replacement, are all among `good` ones.
+double hypergeometricAll(int total, int good, int drawn);
+
+}  // namespace robust
+}  // namespace hybridgv

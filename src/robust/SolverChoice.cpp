@@ -1,0 +1,76 @@
+#include "robust/SolverChoice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+// Five rays from one camera and a point: microseconds per call.
+constexpr double kOneCameraCost = 14;
+// A sample gives about a third of the largest number of solutions, each of which is scored until it is hopeless.
+constexpr double kScoringCost = 0.2 / 3;
+
+void addStrategy(const solvers::MinimalSolver& solver, RayDraw rayDraw, double solverCost, double prior, const Sampler& sampler,
+                 std::vector<Strategy>& strategies) {
+  const SampleSize size{solver.rays, solver.points, rayDraw};
+  if (!sampler.canDraw(size)) return;
+  strategies.push_back({solver.id, size, solver.solve, prior, solverCost + kScoringCost * solver.maxSolutions});
+}
+
+}  // namespace
+
+std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler) {
+  std::vector<Strategy> result;
+  for (const sac::SolverPrior& entry : priors) {
+    const solvers::MinimalSolver& solver = solvers::minimalSolver(entry.solver);
+    if (entry.solver != Solver::H51f) {
+      addStrategy(solver, RayDraw::Uniform, solver.cost, entry.prior, sampler, result);
+      continue;
+    }
+    addStrategy(solver, RayDraw::OneCamera, kOneCameraCost, entry.prior, sampler, result);
+    if (sampler.numberCameras() > 1) addStrategy(solver, RayDraw::Spread, solver.cost, entry.prior, sampler, result);
+  }
+  return result;
+}
+
+SolverChoice::SolverChoice(std::vector<Strategy> strategies)
+    : strategies_(std::move(strategies)), drawn_(strategies_.size(), 0), cumulativeWeight_(strategies_.size(), 0) {
+  update();
+}
+
+std::size_t SolverChoice::choose(double uniform) const {
+  if (!(cumulativeWeight_.back() > 0)) return static_cast<std::size_t>(uniform * static_cast<double>(strategies_.size()));
+  const double target = uniform * cumulativeWeight_.back();
+  const auto found = std::upper_bound(cumulativeWeight_.begin(), cumulativeWeight_.end(), target);
+  return static_cast<std::size_t>(std::min(found, cumulativeWeight_.end() - 1) - cumulativeWeight_.begin());
+}
+
+void SolverChoice::setAllInlierProbabilities(const std::vector<double>& probabilities) {
+  allInlier_ = probabilities;
+  update();
+}
+
+void SolverChoice::update() {
+  std::vector<double> weights(strategies_.size());
+  for (std::size_t s = 0; s < weights.size(); ++s)
+    weights[s] = strategies_[s].prior * (allInlier_.empty() ? 1 : allInlier_[s]) / strategies_[s].cost;
+  if (!allInlier_.empty()) {
+    const double best = *std::max_element(weights.begin(), weights.end());
+    for (std::size_t s = 0; s < weights.size(); ++s)
+      weights[s] *= weights[s] * kHopeless >= best ? std::pow(1 - allInlier_[s], drawn_[s]) : 0;
+  }
+  std::partial_sum(weights.begin(), weights.end(), cumulativeWeight_.begin());
+}
+
+double SolverChoice::missProbability() const {
+  double result = 1;
+  for (std::size_t s = 0; s < allInlier_.size(); ++s) result *= std::pow(1 - allInlier_[s], drawn_[s]);
+  return result;
+}
+
+}  // namespace robust
+}  // namespace hybridgv

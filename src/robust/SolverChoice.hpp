@@ -1,0 +1,54 @@
+// Which solver to draw next, and when all of them together have tried enough.
+#pragma once
+
+#include <vector>
+
+#include "hybridgv/sac/HybridRansac.hpp"
+#include "robust/Sampler.hpp"
+#include "solvers/MinimalSolver.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+// A solver with a way to draw its samples. H51f appears twice: all rays from one camera is a problem of its own, and cheap.
+struct Strategy {
+  Solver solver;
+  SampleSize size;
+  solvers::SolveFunction solve;
+  double prior;
+  double cost;  // microseconds per sample, scoring included
+};
+
+// The strategies for the given solvers that have enough data.
+std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& solvers, const Sampler& sampler);
+
+class SolverChoice {
+ public:
+  explicit SolverChoice(std::vector<Strategy> strategies);
+
+  const std::vector<Strategy>& strategies() const { return strategies_; }
+  const std::vector<int>& drawn() const { return drawn_; }
+  // The strategy for a uniform random number in [0, 1).
+  std::size_t choose(double uniform) const;
+
+  void addDraws(std::size_t strategy, int count) { drawn_[strategy] += count; }
+  // Tells the probabilities that a sample has inliers only, by the best pose so far, and recomputes the weights. Until then every
+  // strategy gets the same share of the time, times its prior.
+  void setAllInlierProbabilities(const std::vector<double>& probabilities);
+  // Recomputes the weights after draws.
+  void update();
+
+  // Probability that no sample so far had inliers only: prod (1 - P_s)^k_s; 1 until the probabilities are known.
+  double missProbability() const;
+
+ private:
+  // A strategy is not drawn if another finds an all-inlier sample this many times faster.
+  static constexpr double kHopeless = 50;
+
+  std::vector<Strategy> strategies_;
+  std::vector<int> drawn_;
+  std::vector<double> allInlier_, cumulativeWeight_;
+};
+
+}  // namespace robust
+}  // namespace hybridgv
