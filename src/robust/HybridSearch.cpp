@@ -16,7 +16,7 @@ constexpr int kFirstBatch = 16, kLargestBatch = 128;
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
 constexpr double kLogFalseAlarms = -6;
-constexpr double kDistanceFactor = 1.3;
+constexpr double kDistanceFactors[] = {1.25, 1.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 
@@ -157,7 +157,7 @@ bool HybridSearch::optimizeFrom(const FocalPose& start, Model& model) {
 // Noisy points give local optima at wrong distances with the matching focal length. From there the right one is found by moving
 // along the optical axis while the focal length keeps the images' size.
 void HybridSearch::changeDistance(Model& model) {
-  for (const double factor : {kDistanceFactor, 1 / kDistanceFactor})
+  for (const double factor : kDistanceFactors)
     while (optimizeFrom(optimizer_.atDistance(model.pose, factor), model)) {
     }
 }

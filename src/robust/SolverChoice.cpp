@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -43,7 +44,6 @@ SolverChoice::SolverChoice(std::vector<Strategy> strategies)
 }
 
 std::size_t SolverChoice::choose(double uniform) const {
-  if (!(cumulativeWeight_.back() > 0)) return static_cast<std::size_t>(uniform * static_cast<double>(strategies_.size()));
   const double target = uniform * cumulativeWeight_.back();
   const auto found = std::upper_bound(cumulativeWeight_.begin(), cumulativeWeight_.end(), target);
   return static_cast<std::size_t>(std::min(found, cumulativeWeight_.end() - 1) - cumulativeWeight_.begin());
@@ -55,15 +55,26 @@ void SolverChoice::setAllInlierProbabilities(const std::vector<double>& probabil
 }
 
 void SolverChoice::update() {
-  std::vector<double> weights(strategies_.size());
-  for (std::size_t s = 0; s < weights.size(); ++s)
-    weights[s] = strategies_[s].prior * (allInlier_.empty() ? 1 : allInlier_[s]) / strategies_[s].cost;
-  if (!allInlier_.empty()) {
-    const double best = *std::max_element(weights.begin(), weights.end());
-    for (std::size_t s = 0; s < weights.size(); ++s)
-      weights[s] *= weights[s] * kHopeless >= best ? std::pow(1 - allInlier_[s], drawn_[s]) : 0;
+  const bool isKnown = !allInlier_.empty() && *std::max_element(allInlier_.begin(), allInlier_.end()) > 0;
+  std::vector<double> rates(strategies_.size());
+  for (std::size_t s = 0; s < rates.size(); ++s)
+    rates[s] = strategies_[s].prior * (isKnown ? allInlier_[s] : 1) / strategies_[s].cost;
+  if (isKnown) discount(rates);
+  std::partial_sum(rates.begin(), rates.end(), cumulativeWeight_.begin());
+}
+
+// Multiplies the rates by (1 - P_s)^k_s, over the largest of these, and drops the hopeless ones.
+void SolverChoice::discount(std::vector<double>& rates) const {
+  const double best = *std::max_element(rates.begin(), rates.end());
+  double largest = -std::numeric_limits<double>::infinity();
+  std::vector<double> logNotFound(rates.size());
+  for (std::size_t s = 0; s < rates.size(); ++s) {
+    if (rates[s] * kHopeless < best) rates[s] = 0;
+    logNotFound[s] = drawn_[s] > 0 ? drawn_[s] * std::log1p(-allInlier_[s]) : 0;
+    if (rates[s] > 0) largest = std::max(largest, logNotFound[s]);
   }
-  std::partial_sum(weights.begin(), weights.end(), cumulativeWeight_.begin());
+  if (std::isinf(largest)) return;  // every one of them has certainly found it
+  for (std::size_t s = 0; s < rates.size(); ++s) rates[s] *= std::exp(logNotFound[s] - largest);
 }
 
 double SolverChoice::missProbability() const {

@@ -42,6 +42,8 @@ class SolverChoice {
   double missProbability() const;
 
  private:
+  void discount(std::vector<double>& rates) const;
+
   // A strategy is not drawn if another finds an all-inlier sample this many times faster.
   static constexpr double kHopeless = 50;
 
