@@ -25,16 +25,32 @@ class BoundingBox {
   double minU_ = kInfinity, maxU_ = -kInfinity, minV_ = kInfinity, maxV_ = -kInfinity;
 };
 
-double shareOf(double part, double area) { return area > 0 ? std::min(part / area, kMaxShare) : kMaxShare; }
+double share(double part, double whole) { return whole > 0 ? std::min(part / whole, kMaxShare) : kMaxShare; }
 
 }  // namespace
 
-ChanceModel::ChanceModel(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError) {
-  BoundingBox box;
-  for (const solvers::RayMatch& match : arrays.rays()) box.add(match.u, match.v);
-  for (const solvers::PointMatch& match : arrays.points()) box.add(match.u, match.v);
-  rayShare_ = shareOf(2 * std::sqrt(2.) * maxEpipolarError * box.diagonal(), box.area());
-  pointShare_ = shareOf(kPi * maxReprojectionError * maxReprojectionError, box.area());
+ChanceModel::ChanceModel(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError)
+    : leastFocalLength_(arrays.rayArrays().leastFocalLength) {
+  BoundingBox query, map;
+  for (const solvers::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
+  for (const solvers::PointMatch& match : arrays.points()) query.add(match.u, match.v);
+  const double band = 2 * std::sqrt(2.) * maxEpipolarError;
+  rayShareOfQuery_ = share(band * query.diagonal(), query.area());
+  pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, query.area());
+
+  for (const HybridArrays::MapImagePoint& point : arrays.mapImagePoints()) map.add(point.x, point.y);
+  const double perPixel = band * map.diagonal() / (map.area() * static_cast<double>(arrays.rays().size()));
+  for (const HybridArrays::MapImagePoint& point : arrays.mapImagePoints()) {
+    if (point.focalLength > 0)
+      knownMapShare_ += perPixel / point.focalLength;
+    else
+      unknownMapShare_ += perPixel;
+  }
+}
+
+double ChanceModel::rayShare(double focalLength) const {
+  const double sum = rayShareOfQuery_ + knownMapShare_ + unknownMapShare_ / std::max(focalLength, leastFocalLength_);
+  return sum < kMaxShare ? sum : kMaxShare;
 }
 
 double logTail(int n, int k, double p) {
@@ -44,14 +60,14 @@ double logTail(int n, int k, double p) {
   return -n * (q * std::log(q / p) + rest);
 }
 
-double ChanceModel::logFalseAlarms(const Support& support, int parameters, double tests) const {
+double ChanceModel::logFalseAlarms(const Support& support, double focalLength, int parameters, double tests) const {
   double worst = -std::numeric_limits<double>::infinity();
   const int mostPoints = std::min((parameters + 1) / 2, support.points);
   for (int points = 0; points <= mostPoints; ++points) {
     const int rays = std::max(parameters - 2 * points, 0);
     if (rays > support.rays && points < mostPoints) continue;
     worst = std::max(worst, logTail(support.allPoints - points, support.points - points, pointShare_) +
-                                logTail(support.allRays - rays, support.rays - rays, rayShare_));
+                                logTail(support.allRays - rays, support.rays - rays, rayShare(focalLength)));
   }
   return (worst + std::log(tests)) / std::log(10.);
 }

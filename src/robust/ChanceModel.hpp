@@ -14,20 +14,23 @@ struct Support {
 
 class ChanceModel {
  public:
-  // Image points of outliers are taken as uniform over the bounding box of all image points. Then a wrong pose has the share
-  // pi T^2 / area of the points as inliers, and the share 2 sqrt(2) T diagonal / area of the rays: an epipolar line is at most as
-  // long as the diagonal, and both images take their part of the Sampson error.
+  // Outliers are taken as uniform over the bounding boxes of the image points. Then a wrong pose has the share pi T^2 / area of
+  // the points as inliers, and of the rays at most the sum over both images of 2 sqrt(2) T diagonal / area: an epipolar line is
+  // at most as long as the diagonal, and one of the images has at least half of the squared Sampson error.
   ChanceModel(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError);
 
-  double rayShare() const { return rayShare_; }
+  // For a pose with this focal length, which is the pixel of map images with unknown focal length.
+  double rayShare(double focalLength) const;
   double pointShare() const { return pointShare_; }
 
   // Upper bound of the log10 of the expected number of wrong poses with at least this support among `tests` of them, each of
   // which has been fitted: `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
-  double logFalseAlarms(const Support& support, int parameters, double tests) const;
+  double logFalseAlarms(const Support& support, double focalLength, int parameters, double tests) const;
 
  private:
-  double rayShare_, pointShare_;
+  double rayShareOfQuery_, pointShare_;
+  // The map images' share is knownMapShare_ + unknownMapShare_ / g, g the focal length of those where it is unknown.
+  double knownMapShare_ = 0, unknownMapShare_ = 0, leastFocalLength_;
 };
 
 // Upper bound of the natural log of the probability that of n events with probability p each, at least k happen:

@@ -65,17 +65,24 @@ void HybridArrays::fillRayColumns(const hybrid_pose::HybridAdapterBase& adapter,
   rayColumns_.assign(kRayColumns * rows, 0);
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     const auto index = static_cast<std::size_t>(indices2d2d[i]);
-    const solvers::RayMatch& match = rays_[i];
-    const hybrid_pose::EpipolarRay ray =
-        hybrid_pose::makeEpipolarRay(adapter.getBearingVector(index), adapter.getCamRotation(index));
+    const Eigen::Vector3d bearing = adapter.getBearingVector(index);
     const double g = adapter.getRigFocalLength(index);
     if (!std::isfinite(g) || g < 0)
       throwInvalid("adapter.getRigFocalLength(" + std::to_string(index) + ")",
                    "must be finite and not negative, is " + std::to_string(g));
-    const double values[kRayColumns] = {
-        match.u,          match.v,          match.centre[0],    match.centre[1],    match.centre[2],    ray.direction[0],
-        ray.direction[1], ray.direction[2], ray.imageNormal[0], ray.imageNormal[1], ray.imageNormal[2], g > 0 ? 1 / (g * g) : 0,
-        g > 0 ? 0. : 1.};
+    const bool isPinhole = bearing[2] > 0;
+    mapImagePoints_.push_back({isPinhole ? bearing[0] / bearing[2] : 0, isPinhole ? bearing[1] / bearing[2] : 0, g});
+
+    const solvers::RayMatch& match = rays_[i];
+    const hybrid_pose::EpipolarRay ray = hybrid_pose::makeEpipolarRay(bearing, adapter.getCamRotation(index));
+    double values[kRayColumns] = {match.u, match.v};
+    for (int k = 0; k < 3; ++k) {
+      values[2 + k] = match.centre[k];
+      values[5 + k] = ray.direction[k];
+      values[8 + k] = ray.imageNormal[k];
+    }
+    values[11] = g > 0 ? 1 / (g * g) : 0;
+    values[12] = g > 0 ? 0 : 1;
     for (std::size_t k = 0; k < kRayColumns; ++k) rayColumns_[k * rows + i] = values[k];
   }
 }
@@ -91,7 +98,9 @@ void HybridArrays::fillPointColumns() {
 }
 
 void HybridArrays::boundUnknownFocalLengths() {
-  const auto add = [this](double u, double v) { leastFocalLength_ = std::max({leastFocalLength_, std::abs(u), std::abs(v)}); };
+  const auto add = [this](double u, double v) {
+    leastFocalLength_ = std::max({leastFocalLength_, 2 * std::abs(u), 2 * std::abs(v)});
+  };
   for (const solvers::RayMatch& match : rays_) add(match.u, match.v);
   for (const solvers::PointMatch& match : points_) add(match.u, match.v);
 }

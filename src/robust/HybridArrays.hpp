@@ -30,14 +30,20 @@ class HybridArrays {
   HybridArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
                const std::vector<int>& indices2d3d);
 
-  // A rig camera of unknown focal length then has at least the largest coordinate of the query's image points as its own. Without
-  // this, the Sampson error of any data vanishes as the query's focal length goes to 0.
+  // A rig camera of unknown focal length then has at least twice the largest coordinate of the query's image points (about the
+  // width of the image) as its own. Without this, the Sampson error of any data vanishes as the query's focal length goes to 0.
   void boundUnknownFocalLengths();
 
   const Normalization& normalization() const { return normalization_; }
   // Element i is correspondence indices2d2d[i] (indices2d3d[i]), normalized.
   const std::vector<solvers::RayMatch>& rays() const { return rays_; }
   const std::vector<solvers::PointMatch>& points() const { return points_; }
+  // Where a ray is seen in its map image: coordinates for focal length 1 (in the tangent plane of the sphere, the origin, if
+  // there is no pinhole image), and that image's focal length, 0 if unknown.
+  struct MapImagePoint {
+    double x, y, focalLength;
+  };
+  const std::vector<MapImagePoint>& mapImagePoints() const { return mapImagePoints_; }
   RayArrays rayArrays() const;
   PointArrays pointArrays() const;
 
@@ -50,6 +56,7 @@ class HybridArrays {
   double leastFocalLength_ = 0;
   std::vector<solvers::RayMatch> rays_;
   std::vector<solvers::PointMatch> points_;
+  std::vector<MapImagePoint> mapImagePoints_;
   std::vector<double> rayColumns_, pointColumns_;
 };
 

@@ -16,7 +16,9 @@ constexpr int kFirstBatch = 16, kLargestBatch = 128;
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
 constexpr double kLogFalseAlarms = -6;
-constexpr double kDistanceFactors[] = {1.25, 1.6};
+// Gain of the score for which an optimization is repeated.
+constexpr double kLeastGain = 0.01;
+constexpr double kDistanceFactors[] = {1, 1.25, 1.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 
@@ -92,16 +94,16 @@ void HybridSearch::tryBatch(int count) {
   workers_.forEach(count, [&](int i, std::size_t worker) {
     if (!isOutOfTime()) attempts[static_cast<std::size_t>(i)] = tryHypothesis(iterations_ + i + 1, solutions_[worker]);
   });
-  const Model* candidate = nullptr;
+  const Attempt* candidate = nullptr;
   for (const Attempt& attempt : attempts) {
     if (!attempt.tried) continue;
     ++iterations_;
     choice_.addDraws(attempt.strategy, 1);
-    const double toBeat = candidate ? candidate->evaluation.score : 0;
-    if (attempt.model.evaluation.score > toBeat) candidate = &attempt.model;
+    if (attempt.logFalseAlarms < (candidate ? candidate->logFalseAlarms : std::numeric_limits<double>::infinity()))
+      candidate = &attempt;
   }
   choice_.update();
-  if (candidate) consider(*candidate);
+  if (candidate) consider(candidate->model);
 }
 
 HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutions) const {
@@ -124,47 +126,57 @@ HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutio
   return attempt;
 }
 
+// Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one type can
+// be much less of an accident than one of the other.
 void HybridSearch::considerSolution(const FocalPose& pose, Attempt& attempt) const {
   if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
-  Expectation expectation = expectation_;
-  expectation.score = std::max(expectation.score, attempt.model.evaluation.score);
-  const Evaluation evaluation = scorer_.evaluate(pose, expectation);
-  if (!evaluation.complete) return;
-  attempt.model.pose = pose;
-  attempt.model.evaluation = evaluation;
+  Model model{pose, scorer_.evaluate(pose, expectation_), attempt.model.solver};
+  if (!model.evaluation.complete) return;
+  const double alarms = logFalseAlarms(model);
+  if (!(alarms < attempt.logFalseAlarms)) return;
+  attempt.model = model;
+  attempt.logFalseAlarms = alarms;
 }
 
 void HybridSearch::consider(const Model& candidate) {
-  bestUnoptimizedScore_ = std::max(bestUnoptimizedScore_, candidate.evaluation.score);
   Model optimized = candidate;
   if (options_.localOptimization) {
     optimizeFrom(candidate.pose, optimized);
-    if (optimized.evaluation.score > best_.evaluation.score) changeDistance(optimized);
+    if (isBetter(optimized)) escapeLocalOptimum(optimized);
   }
-  if (optimized.evaluation.score > best_.evaluation.score) setBest(optimized);
+  if (isBetter(optimized)) setBest(optimized);
 }
 
-bool HybridSearch::optimizeFrom(const FocalPose& start, Model& model) {
+// A pose that is more than chance is better than one that is not; otherwise the score decides.
+bool HybridSearch::isBetter(const Model& model) const {
+  const bool isSignificant = logFalseAlarms(model) < kLogFalseAlarms;
+  if (isSignificant != bestIsSignificant_) return isSignificant;
+  return model.evaluation.score > best_.evaluation.score;
+}
+
+void HybridSearch::optimizeFrom(const FocalPose& start, Model& model) {
   ++localOptimizations_;
   const FocalPose pose = optimizer_.refine(start);
   const Evaluation evaluation = scorer_.evaluate(pose);
-  if (!(evaluation.score > model.evaluation.score)) return false;
+  if (!(evaluation.score > model.evaluation.score)) return;
   model.pose = pose;
   model.evaluation = evaluation;
-  return true;
 }
 
-// Noisy points give local optima at wrong distances with the matching focal length. From there the right one is found by moving
-// along the optical axis while the focal length keeps the images' size.
-void HybridSearch::changeDistance(Model& model) {
+// The truncated errors have local optima. Two ways out that cost little: once more from wide to narrow; and, because noisy points
+// give optima at too small a distance with the matching focal length, from farther away, the focal length keeping the images'
+// size.
+void HybridSearch::escapeLocalOptimum(Model& model) {
   for (const double factor : kDistanceFactors)
-    while (optimizeFrom(optimizer_.atDistance(model.pose, factor), model)) {
+    for (double before = 0; model.evaluation.score > (1 + kLeastGain) * before;) {
+      before = model.evaluation.score;
+      optimizeFrom(optimizer_.atDistance(model.pose, factor), model);
     }
 }
 
 void HybridSearch::setBest(const Model& model) {
   best_ = model;
-  bestIsSignificant_ = isSignificant(model.evaluation);
+  bestIsSignificant_ = logFalseAlarms(model) < kLogFalseAlarms;
   if (!bestIsSignificant_) return;
   std::vector<char> rays, points;
   scorer_.inliers(model.pose, rays, points);
@@ -177,15 +189,15 @@ void HybridSearch::setBest(const Model& model) {
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
   expectation_.goodShare[0] = share(inliers.rays, sampler_.numberRays());
   expectation_.goodShare[1] = share(inliers.points, sampler_.numberPoints());
-  expectation_.chanceShare[0] = chance_.rayShare(), expectation_.chanceShare[1] = chance_.pointShare();
+  expectation_.chanceShare[0] = chance_.rayShare(model.pose.focalLength), expectation_.chanceShare[1] = chance_.pointShare();
 }
 
 Support HybridSearch::support(const Evaluation& evaluation) const {
   return {evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
 }
 
-bool HybridSearch::isSignificant(const Evaluation& evaluation) const {
-  return chance_.logFalseAlarms(support(evaluation), kParameters, iterations_ + 1) < kLogFalseAlarms;
+double HybridSearch::logFalseAlarms(const Model& model) const {
+  return chance_.logFalseAlarms(support(model.evaluation), model.pose.focalLength, kParameters, iterations_ + 1);
 }
 
 bool HybridSearch::isOutOfTime() const {
@@ -215,8 +227,7 @@ FinalPose HybridSearch::finish(bool optimize) {
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
 // chance, with one parameter left to fit.
 sac::FailureReason HybridSearch::verify(bool isRegular) const {
-  const double tests = iterations_ + 1;
-  if (!isSignificant(best_.evaluation)) return sac::FailureReason::InliersMayBeChance;
+  if (!(logFalseAlarms(best_) < kLogFalseAlarms)) return sac::FailureReason::InliersMayBeChance;
   std::vector<char> rays, points;
   scorer_.inliers(best_.pose, rays, points);
   const std::vector<int> perCamera = sampler_.count(rays, points).raysPerCamera;
@@ -225,7 +236,8 @@ sac::FailureReason HybridSearch::verify(bool isRegular) const {
     Support rest = support(best_.evaluation);
     rest.rays -= *largest;
     rest.allRays -= sampler_.numberRays(static_cast<std::size_t>(largest - perCamera.begin()));
-    if (!(chance_.logFalseAlarms(rest, 1, tests) < kLogFalseAlarms)) return sac::FailureReason::UndeterminedPose;
+    if (!(chance_.logFalseAlarms(rest, best_.pose.focalLength, 1, iterations_ + 1) < kLogFalseAlarms))
+      return sac::FailureReason::UndeterminedPose;
   }
   return isRegular ? sac::FailureReason::None : sac::FailureReason::UndeterminedPose;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -56,6 +57,7 @@ class HybridSearch {
     std::size_t strategy = 0;
     bool tried = false;
     Model model;
+    double logFalseAlarms = std::numeric_limits<double>::infinity();
   };
 
   using Solutions = std::array<FocalPose, solvers::kMaxSolutions>;
@@ -65,11 +67,13 @@ class HybridSearch {
   Attempt tryHypothesis(int number, Solutions& solutions) const;
   void considerSolution(const FocalPose& pose, Attempt& attempt) const;
   void consider(const Model& candidate);
-  // Optimizes a start; replaces the model and returns true if the result is better.
-  bool optimizeFrom(const FocalPose& start, Model& model);
-  void changeDistance(Model& model);
+  // Optimizes a start; replaces the model if the result is better.
+  void optimizeFrom(const FocalPose& start, Model& model);
+  void escapeLocalOptimum(Model& model);
   void setBest(const Model& model);
-  bool isSignificant(const Evaluation& evaluation) const;
+  // log10 of the expected number of wrong poses among all so far that look as good.
+  double logFalseAlarms(const Model& model) const;
+  bool isBetter(const Model& model) const;
   bool isDone();
   bool isOutOfTime() const;
   Support support(const Evaluation& evaluation) const;
@@ -87,7 +91,6 @@ class HybridSearch {
   std::vector<Solutions> solutions_;  // one scratch buffer per worker
 
   Model best_;
-  double bestUnoptimizedScore_ = 0;
   bool bestIsSignificant_ = false;
   Expectation expectation_;
   int iterations_ = 0, localOptimizations_ = 0;

@@ -54,7 +54,7 @@ class Sampler {
   InlierCounts count(const std::vector<char>& inlierRays, const std::vector<char>& inlierPoints) const;
 
  private:
-  static constexpr double kGrowth = 1000;
+  static constexpr double kGrowth = 10000;
 
   int poolSize(int available, int sampleSize, int number) const;
   void drawOneCamera(int count, int number, RandomStream& random, int* sample) const;

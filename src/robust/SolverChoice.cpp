@@ -74,7 +74,8 @@ void SolverChoice::discount(std::vector<double>& rates) const {
     if (rates[s] > 0) largest = std::max(largest, logNotFound[s]);
   }
   if (std::isinf(largest)) return;  // every one of them has certainly found it
-  for (std::size_t s = 0; s < rates.size(); ++s) rates[s] *= std::exp(logNotFound[s] - largest);
+  for (std::size_t s = 0; s < rates.size(); ++s)
+    if (rates[s] > 0) rates[s] *= std::exp(logNotFound[s] - largest);
 }
 
 double SolverChoice::missProbability() const {

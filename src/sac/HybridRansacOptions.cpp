@@ -26,6 +26,10 @@ void HybridRansacOptions::check() const {
   for (const SolverPrior& entry : solvers)
     require(positiveFinite(entry.prior), ("solvers[" + std::string(hybridgv::toString(entry.solver)) + "].prior").c_str(),
             entry.prior, "positive and finite");
+  for (auto entry = solvers.begin(); entry != solvers.end(); ++entry)
+    for (auto other = solvers.begin(); other != entry; ++other)
+      if (other->solver == entry->solver)
+        throwInvalid("options.solvers", std::string(hybridgv::toString(entry->solver)) + " is listed twice");
   if (initialPose) checkPose("options.initialPose", *initialPose);
 }
 

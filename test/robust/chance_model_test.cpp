@@ -49,13 +49,14 @@ struct Outliers {
 TEST(ChanceModel, wrong_poses_have_no_larger_shares_of_inliers_on_average) {
   test::Random random(test::testSeed(), 50);
   double rays = 0, points = 0, expectedRays = 0, expectedPoints = 0;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const Outliers data(random);
-    const ChanceModel chance(data.arrays, 6, 20);
-    const PoseScorer scorer(data.arrays, 6, 20, sac::Scoring::Msac);
-    const Evaluation evaluation = scorer.evaluate(data.arrays.normalization().apply(data.scene.truth));
+    const ChanceModel chance(data.arrays, 6, 60);
+    const PoseScorer scorer(data.arrays, 6, 60, sac::Scoring::Msac);
+    const FocalPose pose = data.arrays.normalization().apply(data.scene.truth);
+    const Evaluation evaluation = scorer.evaluate(pose);
     rays += evaluation.rays / 300., points += evaluation.points / 300.;
-    expectedRays += chance.rayShare(), expectedPoints += chance.pointShare();
+    expectedRays += chance.rayShare(pose.focalLength), expectedPoints += chance.pointShare();
   }
   EXPECT_LT(rays, expectedRays);
   EXPECT_LT(points, 1.2 * expectedPoints);
@@ -69,16 +70,16 @@ TEST(ChanceModel, more_inliers_are_less_likely_chance_and_fitted_ones_prove_noth
   const ChanceModel chance(data.arrays, 6, 12);
   double last = 1;
   for (const int inliers : {10, 20, 40, 80}) {
-    const double alarms = chance.logFalseAlarms({inliers, 200, inliers, 200}, kParameters, 1000);
+    const double alarms = chance.logFalseAlarms({inliers, 200, inliers, 200}, 1000, kParameters, 1000);
     EXPECT_LT(alarms, last);
     last = alarms;
   }
   EXPECT_LT(last, -50);
-  EXPECT_GE(chance.logFalseAlarms({4, 4, 0, 0}, kParameters, 1), 0) << "four points are fitted by any of their poses";
-  EXPECT_GE(chance.logFalseAlarms({3, 3, 1, 1}, kParameters, 1), 0);
-  EXPECT_GE(chance.logFalseAlarms({1, 1, 5, 5}, kParameters, 1), 0);
-  EXPECT_LT(chance.logFalseAlarms({12, 12, 0, 0}, kParameters, 1000), -6);
-  EXPECT_LT(chance.logFalseAlarms({3, 3, 40, 60}, kParameters, 1000), -6) << "rays alone may do";
+  EXPECT_GE(chance.logFalseAlarms({4, 4, 0, 0}, 1000, kParameters, 1), 0) << "four points are fitted by any of their poses";
+  EXPECT_GE(chance.logFalseAlarms({3, 3, 1, 1}, 1000, kParameters, 1), 0);
+  EXPECT_GE(chance.logFalseAlarms({1, 1, 5, 5}, 1000, kParameters, 1), 0);
+  EXPECT_LT(chance.logFalseAlarms({12, 12, 0, 0}, 1000, kParameters, 1000), -6);
+  EXPECT_LT(chance.logFalseAlarms({3, 3, 40, 60}, 1000, kParameters, 1000), -6) << "rays alone may do";
 }
 
 }  // namespace

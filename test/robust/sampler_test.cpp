@@ -151,7 +151,7 @@ TEST(Sampler, growing_pools_start_with_the_first_and_reach_all) {
   for (int i = 0; i < 200; ++i) {
     RandomStream early(5, static_cast<std::uint64_t>(i)), late(6, static_cast<std::uint64_t>(i));
     const Sample first = sampler.draw({1, 3, RayDraw::Uniform}, 1, early);
-    const Sample last = sampler.draw({1, 3, RayDraw::Uniform}, 1000, late);
+    const Sample last = sampler.draw({1, 3, RayDraw::Uniform}, 10000, late);
     largestEarly = std::max({largestEarly, first.points[0], first.points[1], first.points[2], first.rays[0]});
     largestLate = std::max({largestLate, last.points[0], last.points[1], last.points[2], last.rays[0]});
   }

@@ -50,7 +50,8 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] larger ones are no solutions
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
-  std::vector<SolverPrior> solvers = {{Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H51f, 1}};
+  std::vector<SolverPrior> solvers = {
+      {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
   Scoring scoring = Scoring::Msac;
   Sampling sampling = Sampling::QualityOrdered;
   bool localOptimization = true;  ///< optimize every new best model over its inliers
@@ -131,7 +132,8 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 /// So data of one type that are all outliers cost no more than the samples wasted on them, and an absent type costs nothing.
 ///
 /// The Sampson error uses the rig camera's own focal length where the adapter knows it (getRigFocalLength), else the query's
-/// current one. Image points, viewing rays and points must be finite.
+/// current one, but at least twice the largest coordinate of the image points (with the focal length the error of any rays would
+/// vanish). Image points, viewing rays and points must be finite.
 ///
 /// \return success only if the inliers are too many to be chance and fix all seven parameters; see FailureReason.
 /// \throws std::invalid_argument for wrong options (see check()) and data that are not finite

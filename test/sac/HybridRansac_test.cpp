@@ -1,0 +1,398 @@
+#include "hybridgv/sac/HybridRansac.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+
+#include "HybridScene.hpp"
+#include "hybridgv/hybrid_pose/residuals.hpp"
+
+namespace hybridgv {
+namespace {
+
+using sac::FailureReason;
+using sac::hybridRansac;
+using sac::HybridRansacOptions;
+using sac::HybridRansacResult;
+using sac::StopReason;
+using test::HybridScene;
+using test::SceneOptions;
+
+SceneOptions noisy(int rays, int points, double outliers) {
+  SceneOptions options;
+  options.rays = rays, options.points = points, options.imageNoise = 1;
+  options.outlierShareRays = options.outlierSharePoints = outliers;
+  return options;
+}
+
+HybridRansacOptions thresholds() {
+  HybridRansacOptions options;
+  options.maxReprojectionErrorPx = 6, options.maxEpipolarErrorPx = 4;
+  return options;
+}
+
+// Near the truth, at distance 15 to 25 from the scene's middle; how near depends on the noise.
+bool isRight(const FocalPose& pose, const FocalPose& truth) {
+  return test::poseDistance(pose, truth) < 0.1 && (pose.position - truth.position).norm() < 2;
+}
+
+int sum(const std::vector<char>& mask) { return std::accumulate(mask.begin(), mask.end(), 0); }
+
+// What every result must hold, whatever the data.
+void expectSound(const HybridRansacResult& result, const HybridScene& scene, const HybridRansacOptions& options) {
+  ASSERT_EQ(result.inliers2d2d.size(), scene.bearings.size());
+  ASSERT_EQ(result.inliers2d3d.size(), scene.points.size());
+  EXPECT_EQ(result.success, result.failureReason == FailureReason::None);
+  EXPECT_TRUE(result.pose.rotation.allFinite() && result.pose.position.allFinite() && result.pose.focalLength > 0);
+  EXPECT_LT((result.pose.rotation.transpose() * result.pose.rotation - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+  EXPECT_EQ(sum(result.inliers2d2d), result.numberInliers2d2d);
+  EXPECT_EQ(sum(result.inliers2d3d), result.numberInliers2d3d);
+  if (!(result.score > 0)) return;
+  const NoncentralHybridAdapter adapter = scene.adapter();
+  double least = 0;  // focal length of map images where it is unknown
+  for (const auto* image : {&scene.image2d2d, &scene.image2d3d})
+    for (const Eigen::Vector3d& x : *image) least = std::max({least, 2 * std::abs(x[0]), 2 * std::abs(x[1])});
+  for (std::size_t i = 0; i < scene.points.size(); ++i)
+    EXPECT_EQ(hybrid_pose::reprojectionError(result.pose, adapter.getImagePoint2d3d(i), adapter.getPoint(i)) <
+                  options.maxReprojectionErrorPx,
+              result.inliers2d3d[i] != 0);
+  for (std::size_t i = 0; i < scene.bearings.size(); ++i)
+    EXPECT_EQ(hybrid_pose::sampsonError(result.pose, adapter.getImagePoint2d2d(i), adapter.getBearingVector(i),
+                                        adapter.getCamOffset(i), adapter.getCamRotation(i),
+                                        std::max(least, result.pose.focalLength)) < options.maxEpipolarErrorPx,
+              result.inliers2d2d[i] != 0);
+}
+
+// Runs `count` scenes and returns the number of right poses; each result is sound and none is wrong but called a success.
+int countRight(const SceneOptions& sceneOptions, HybridRansacOptions options, int count, std::uint64_t stream,
+               const std::function<void(HybridScene&)>& change = {}) {
+  test::Random random(test::testSeed(), stream);
+  int right = 0;
+  for (int i = 0; i < count; ++i) {
+    HybridScene scene = test::makeHybridScene(random, sceneOptions);
+    if (change) change(scene);
+    options.seed = static_cast<std::uint64_t>(i);
+    const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+    expectSound(result, scene, options);
+    const bool isCorrect = isRight(result.pose, scene.truth);
+    right += result.success && isCorrect;
+    EXPECT_TRUE(isCorrect || !result.success) << "scene " << i << ": a wrong pose is called a success, "
+                                              << result.numberInliers2d2d << " + " << result.numberInliers2d3d << " inliers";
+  }
+  return right;
+}
+
+TEST(HybridRansac, finds_the_pose_at_every_share_of_outliers) {
+  for (const double outliers : {0., 0.3, 0.5, 0.7})
+    EXPECT_EQ(countRight(noisy(100, 100, outliers), thresholds(), 10, 70), 10) << outliers;
+}
+
+TEST(HybridRansac, masks_are_the_true_inliers) {
+  test::Random random(test::testSeed(), 71);
+  const HybridScene scene = test::makeHybridScene(random, noisy(200, 200, 0.4));
+  const HybridRansacResult result = hybridRansac(scene.adapter(), thresholds());
+  int different = 0;
+  for (std::size_t i = 0; i < 200; ++i)
+    different += (result.inliers2d2d[i] != scene.inliers2d2d[i]) + (result.inliers2d3d[i] != scene.inliers2d3d[i]);
+  EXPECT_LE(different, 12) << "some outliers match by chance";
+}
+
+TEST(HybridRansac, noisy_points_are_outweighed_by_exact_rays) {
+  SceneOptions sceneOptions = noisy(150, 150, 0.3);
+  sceneOptions.pointNoise = 0.4;
+  HybridRansacOptions options = thresholds();
+  options.maxReprojectionErrorPx = 60;
+  EXPECT_GE(countRight(sceneOptions, options, 15, 72), 14);
+}
+
+// ---- one type is bad or absent ----
+
+TEST(HybridRansac, all_rays_outliers) {
+  SceneOptions scene = noisy(150, 150, 0.3);
+  scene.outlierShareRays = 1;
+  EXPECT_EQ(countRight(scene, thresholds(), 10, 73), 10);
+}
+
+TEST(HybridRansac, all_points_outliers_give_no_wrong_success) {
+  SceneOptions scene = noisy(150, 150, 0.2);
+  scene.outlierSharePoints = 1;
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 1000;
+  countRight(scene, options, 6, 74);
+}
+
+TEST(HybridRansac, all_outliers_give_no_success) {
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 500;
+  EXPECT_EQ(countRight(noisy(150, 150, 1), options, 10, 75), 0);
+}
+
+TEST(HybridRansac, no_rays) { EXPECT_EQ(countRight(noisy(0, 80, 0.3), thresholds(), 10, 76), 10); }
+
+TEST(HybridRansac, no_points_is_too_few) {
+  test::Random random(test::testSeed(), 77);
+  const HybridScene scene = test::makeHybridScene(random, noisy(80, 0, 0));
+  const HybridRansacResult result = hybridRansac(scene.adapter());
+  EXPECT_EQ(result.failureReason, FailureReason::TooFewCorrespondences);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_EQ(result.inliers2d2d.size(), 80u);
+}
+
+TEST(HybridRansac, three_points_and_many_rays) {
+  SceneOptions scene = noisy(120, 3, 0);
+  scene.outlierShareRays = 0.3;
+  EXPECT_EQ(countRight(scene, thresholds(), 10, 78), 10);
+}
+
+TEST(HybridRansac, three_rays_and_many_points) {
+  SceneOptions scene = noisy(3, 120, 0);
+  scene.outlierSharePoints = 0.3;
+  EXPECT_EQ(countRight(scene, thresholds(), 10, 79), 10);
+}
+
+TEST(HybridRansac, nothing_at_all) {
+  const NoncentralHybridAdapter adapter({}, {}, {}, {}, {}, {}, {});
+  EXPECT_EQ(hybridRansac(adapter).failureReason, FailureReason::TooFewCorrespondences);
+}
+
+TEST(HybridRansac, four_points_alone_prove_nothing) {
+  test::Random random(test::testSeed(), 80);
+  const HybridScene scene = test::makeHybridScene(random, noisy(0, 4, 0));
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 50;
+  const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+  EXPECT_EQ(result.failureReason, FailureReason::InliersMayBeChance);
+  EXPECT_GT(result.score, 0) << "a pose is given nevertheless";
+}
+
+// ---- degenerate geometry ----
+
+TEST(HybridRansac, all_points_coplanar) {
+  SceneOptions scene = noisy(100, 100, 0.3);
+  scene.coplanar = true;
+  EXPECT_GE(countRight(scene, thresholds(), 12, 81), 11);
+}
+
+TEST(HybridRansac, all_rays_from_one_camera) {
+  SceneOptions scene = noisy(100, 100, 0.3);
+  scene.cameras = 1;
+  EXPECT_EQ(countRight(scene, thresholds(), 10, 82), 10);
+}
+
+// The relative pose is found, but not the distance: nothing but chance fixes it.
+TEST(HybridRansac, rays_from_one_camera_and_outlier_points_are_no_success) {
+  SceneOptions scene = noisy(150, 100, 0.1);
+  scene.cameras = 1, scene.outlierSharePoints = 1;
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 500;
+  EXPECT_EQ(countRight(scene, options, 6, 83), 0);
+}
+
+TEST(HybridRansac, identical_points_and_collinear_points_end_without_success) {
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 300;
+  EXPECT_EQ(countRight(noisy(0, 40, 0), options, 3, 84,
+                       [](HybridScene& scene) {
+                         for (auto& point : scene.points) point = scene.points[0];
+                       }),
+            0);
+  countRight(noisy(0, 40, 0), options, 3, 85, [](HybridScene& scene) {
+    for (std::size_t i = 0; i < scene.points.size(); ++i) {
+      scene.points[i] = Eigen::Vector3d(0.1, 0.05, -0.02) * (static_cast<double>(i) - 20);
+      scene.image2d3d[i] = test::project(scene.truth, scene.points[i]).homogeneous();
+    }
+  });
+}
+
+// ---- hard data ----
+
+TEST(HybridRansac, ninety_five_percent_outliers_end_within_the_time_budget) {
+  test::Random random(test::testSeed(), 86);
+  const HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.95));
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 1 << 30;
+  options.timeBudgetSeconds = 0.1;
+  const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+  expectSound(result, scene, options);
+  EXPECT_TRUE(!result.success || isRight(result.pose, scene.truth));
+  EXPECT_EQ(result.stopReason, StopReason::TimeBudget);
+  EXPECT_LT(result.iterations, 1 << 30);
+}
+
+TEST(HybridRansac, scene_far_from_the_origin_and_of_any_scale) {
+  SceneOptions options = noisy(100, 100, 0.3);
+  test::Random random(test::testSeed(), 87);
+  for (const double scale : {1e-3, 1e3}) {
+    options.scale = scale, options.origin = scale * Eigen::Vector3d(5e4, -4e5, 300);
+    const HybridScene scene = test::makeHybridScene(random, options);
+    const HybridRansacResult result = hybridRansac(scene.adapter(), thresholds());
+    EXPECT_TRUE(result.success);
+    EXPECT_LT(test::poseDistance(result.pose, scene.truth), 0.1);
+    EXPECT_LT((result.pose.position - scene.truth.position).norm(), 2 * scale);
+  }
+}
+
+// ---- options ----
+
+void expectEqual(const HybridRansacResult& a, const HybridRansacResult& b) {
+  EXPECT_EQ(a.pose.rotation, b.pose.rotation);
+  EXPECT_EQ(a.pose.position, b.pose.position);
+  EXPECT_EQ(a.pose.focalLength, b.pose.focalLength);
+  EXPECT_EQ(a.inliers2d2d, b.inliers2d2d);
+  EXPECT_EQ(a.inliers2d3d, b.inliers2d3d);
+  EXPECT_EQ(a.iterations, b.iterations);
+  EXPECT_EQ(a.iterationsPerSolver, b.iterationsPerSolver);
+  EXPECT_EQ(a.score, b.score);
+  EXPECT_EQ(a.covariance, b.covariance);
+}
+
+TEST(HybridRansac, equal_seeds_give_equal_bits_for_any_number_of_threads) {
+  test::Random random(test::testSeed(), 88);
+  const HybridScene scene = test::makeHybridScene(random, noisy(150, 150, 0.6));
+  const NoncentralHybridAdapter adapter = scene.adapter();
+  HybridRansacOptions options = thresholds();
+  options.seed = 5;
+  const HybridRansacResult one = hybridRansac(adapter, options);
+  expectEqual(one, hybridRansac(adapter, options));
+  for (const int threads : {0, 2, 3, 8}) {
+    options.threads = threads;
+    expectEqual(one, hybridRansac(adapter, options));
+  }
+  options.seed = 6;
+  EXPECT_NE(hybridRansac(adapter, options).iterationsPerSolver, one.iterationsPerSolver);
+}
+
+TEST(HybridRansac, only_the_given_solvers_are_drawn) {
+  test::Random random(test::testSeed(), 89);
+  const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
+  for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f}) {
+    HybridRansacOptions options = thresholds();
+    options.solvers = {{solver, 1}};
+    const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+    EXPECT_TRUE(result.success && isRight(result.pose, scene.truth)) << toString(solver);
+    EXPECT_EQ(result.solver, solver);
+    ASSERT_EQ(result.iterationsPerSolver.size(), 1u);
+    EXPECT_EQ(result.iterationsPerSolver.at(solver), result.iterations);
+  }
+}
+
+TEST(HybridRansac, every_choice_of_scoring_and_optimization_finds_the_pose) {
+  test::Random random(test::testSeed(), 90);
+  const HybridScene scene = test::makeHybridScene(random, noisy(150, 150, 0.3));
+  for (const auto scoring : {sac::Scoring::Msac, sac::Scoring::InlierCount})
+    for (const bool local : {false, true})
+      for (const bool final : {false, true}) {
+        HybridRansacOptions options = thresholds();
+        options.minIterations = 300;  // without optimization the best of many samples is wanted
+        options.scoring = scoring, options.localOptimization = local, options.finalOptimization = final;
+        const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+        expectSound(result, scene, options);
+        EXPECT_TRUE(result.success);
+        EXPECT_LT(test::poseDistance(result.pose, scene.truth), local || final ? 0.1 : 0.5);
+        EXPECT_EQ(result.localOptimizations > 0, local);
+      }
+}
+
+TEST(HybridRansac, initial_pose_is_used_if_it_is_good_and_does_no_harm_if_not) {
+  test::Random random(test::testSeed(), 91);
+  const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.6));
+  HybridRansacOptions options = thresholds();
+  options.initialPose = scene.truth;
+  options.maxIterations = 1;
+  const HybridRansacResult good = hybridRansac(scene.adapter(), options);
+  EXPECT_TRUE(good.success && isRight(good.pose, scene.truth));
+  options.solvers.clear();
+  const HybridRansacResult alone = hybridRansac(scene.adapter(), options);
+  EXPECT_TRUE(alone.success && isRight(alone.pose, scene.truth)) << "an initial pose alone will do";
+  EXPECT_FALSE(alone.solver.has_value());
+  options = thresholds();
+  options.initialPose = FocalPose{};
+  const HybridRansacResult bad = hybridRansac(scene.adapter(), options);
+  EXPECT_TRUE(bad.success && isRight(bad.pose, scene.truth));
+}
+
+TEST(HybridRansac, focal_bounds_are_kept) {
+  test::Random random(test::testSeed(), 92);
+  const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 300;
+  options.minFocalLength = 1.2 * scene.truth.focalLength;
+  const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+  if (result.score > 0) {
+    EXPECT_GE(result.pose.focalLength, options.minFocalLength);
+  }
+  options.minFocalLength = 0.9 * scene.truth.focalLength, options.maxFocalLength = 1.1 * scene.truth.focalLength;
+  EXPECT_TRUE(hybridRansac(scene.adapter(), options).success);
+}
+
+// Good correspondences first: far fewer samples than uniform sampling, with the same result.
+TEST(HybridRansac, quality_order_speeds_up_the_search) {
+  test::Random random(test::testSeed(), 93);
+  HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.9));
+  NoncentralHybridAdapter adapter = scene.adapter();
+  std::vector<double> weights2d2d, weights2d3d;
+  for (const char inlier : scene.inliers2d2d) weights2d2d.push_back(inlier + random.uniform(0, 0.9));
+  for (const char inlier : scene.inliers2d3d) weights2d3d.push_back(inlier + random.uniform(0, 0.9));
+  adapter.setWeights(weights2d2d, weights2d3d);
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 200;
+  const HybridRansacResult ordered = hybridRansac(adapter, options);
+  EXPECT_TRUE(ordered.success && isRight(ordered.pose, scene.truth));
+  options.sampling = sac::Sampling::Uniform;
+  EXPECT_FALSE(isRight(hybridRansac(adapter, options).pose, scene.truth));
+}
+
+// The squared error of the focal length, measured in the stated variance, has mean 1 (a little more: noise is estimated).
+TEST(HybridRansac, standard_deviation_of_the_focal_length_is_that_of_its_errors) {
+  test::Random random(test::testSeed(), 94);
+  double squares = 0;
+  const int count = 150;
+  for (int i = 0; i < count; ++i) {
+    const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
+    const HybridRansacResult result = hybridRansac(scene.adapter(), thresholds());
+    squares += std::pow((result.pose.focalLength - scene.truth.focalLength) / result.focalLengthStandardDeviation, 2);
+    EXPECT_NEAR(result.focalLengthStandardDeviation, result.pose.focalLength * std::sqrt(result.covariance[48]), 1e-9);
+  }
+  EXPECT_GT(squares / count, 0.5);
+  EXPECT_LT(squares / count, 2.5);
+}
+
+TEST(HybridRansac, wrong_options_are_refused) {
+  const NoncentralHybridAdapter adapter({}, {}, {}, {}, {}, {}, {});
+  const std::vector<std::function<void(HybridRansacOptions&)>> mistakes = {
+      [](auto& o) { o.maxReprojectionErrorPx = 0; },
+      [](auto& o) { o.maxEpipolarErrorPx = NAN; },
+      [](auto& o) { o.successProbability = 1; },
+      [](auto& o) { o.maxIterations = 0; },
+      [](auto& o) { o.minIterations = -1; },
+      [](auto& o) { o.minIterations = o.maxIterations + 1; },
+      [](auto& o) { o.timeBudgetSeconds = 0; },
+      [](auto& o) { o.minFocalLength = -1; },
+      [](auto& o) { o.minFocalLength = 100, o.maxFocalLength = 50; },
+      [](auto& o) { o.threads = -1; },
+      [](auto& o) { o.solvers.clear(); },
+      [](auto& o) { o.solvers[0].prior = 0; },
+      [](auto& o) { o.solvers.push_back(o.solvers[0]); },
+      [](auto& o) { o.initialPose = FocalPose{}, o.initialPose->focalLength = 0; },
+      [](auto& o) { o.initialPose = FocalPose{}, o.initialPose->rotation *= 2; },
+  };
+  for (std::size_t i = 0; i < mistakes.size(); ++i) {
+    HybridRansacOptions options;
+    EXPECT_NO_THROW(options.check());
+    mistakes[i](options);
+    EXPECT_THROW(options.check(), std::invalid_argument) << i;
+    EXPECT_THROW(hybridRansac(adapter, options), std::invalid_argument) << i;
+  }
+}
+
+TEST(HybridRansac, reasons_have_names) {
+  EXPECT_STREQ(toString(FailureReason::None), "none");
+  EXPECT_STREQ(toString(FailureReason::UndeterminedPose), "pose not determined by the inliers");
+  EXPECT_STREQ(toString(StopReason::Confident), "confident");
+}
+
+}  // namespace
+}  // namespace hybridgv
