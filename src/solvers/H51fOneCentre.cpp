@@ -13,7 +13,6 @@ namespace solvers {
 namespace {
 
 constexpr int kRays = 5;
-constexpr int kAttempts = 3;
 
 // The pose of a motion with the given choice of its rotation, if all depths are positive.
 bool completePose(const SixCorrespondences& six, const OneFocalMotion& motion, const Eigen::Matrix3d& rotation,
@@ -43,16 +42,14 @@ int h51fOneCentre(const RayMatch* rays, const PointMatch* points, FocalPose* sol
   if (!(range > 0)) return 0;
   six.u[kRays] = points[0].u, six.v[kRays] = points[0].v, six.direction[kRays] = toPoint / range;
   if (!six.normalise()) return 0;
+  OneFocalMotion motions[kMaxOneFocalMotions];
+  const int found = oneFocalFundamental(six, motions);
   int count = 0;
-  for (int attempt = 0; attempt < kAttempts && count == 0; ++attempt) {
-    OneFocalMotion motions[kMaxOneFocalMotions];
-    const int found = oneFocalFundamental(six, attempt, motions);
-    for (int i = 0; i < found; ++i) {
-      // Exactly one of the two rotations puts X in front of the query.
-      if (completePose(six, motions[i], motions[i].rotation, centre, range, solutions[count]) ||
-          completePose(six, motions[i], motions[i].otherRotation(), centre, range, solutions[count]))
-        ++count;
-    }
+  for (int i = 0; i < found; ++i) {
+    // Exactly one of the two rotations puts X in front of the query.
+    if (completePose(six, motions[i], motions[i].rotation, centre, range, solutions[count]) ||
+        completePose(six, motions[i], motions[i].otherRotation(), centre, range, solutions[count]))
+      ++count;
   }
   return count;
 }

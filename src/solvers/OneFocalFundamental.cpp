@@ -15,13 +15,21 @@ using math::Pair;
 using math::Vec3;
 
 constexpr int kMaxRoots = math::BinaryFormRoots<9>::kMaxRoots;
-constexpr int kPaddedRoots = kMaxRoots + 1;
+constexpr int kMaxCandidates = 2 * kMaxRoots + 2;
+
+Pair squareRoot(Pair a) { return Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
+// 1 or -1
+Pair signs(Pair a) { return Pair{std::copysign(1.0, a[0]), std::copysign(1.0, a[1])}; }
 
 // Zeros F = x B0 + c B1 + s B2 of det F and Q, to be; as arrays, so that two are treated at once.
 struct Candidates {
   int count = 0;
-  double x[kPaddedRoots], c[kPaddedRoots], s[kPaddedRoots];
+  double x[kMaxCandidates], c[kMaxCandidates], s[kMaxCandidates];
 
+  void add(double newX, double newC, double newS) {
+    x[count] = newX, c[count] = newC, s[count] = newS;
+    ++count;
+  }
   // An odd last one is repeated to make a pair.
   void pad() {
     if (count > 0) x[count] = x[count - 1], c[count] = c[count - 1], s[count] = s[count - 1];
@@ -65,24 +73,38 @@ struct FocalDenominator {
   }
 };
 
-// x of the roots, from (x^2, x, 1) ~ (r1 x r0, r0 x r2, r2 x r1); those with f^2 clearly negative are left out.
+// The two x of a root of the form, from the quadratics x^2 r2 + x r1 + r0 = 0.
+struct RootCoordinates {
+  Pair x, other;
+  bool otherCounts[2];
+
+  explicit RootCoordinates(const OneFocalPencil::Quadratics<Pair>& m) {
+    // Their common zero: (x^2, x, 1) ~ (r1 x r0, r0 x r2, r2 x r1) = (a, b, d). As x^2 + 1 > 0, n = a + d is the direction of all
+    // three; x = x (x^2 + 1) / (x^2 + 1) loses nothing where x is large.
+    const Vec3<Pair> a = cross(m.r1, m.r0), b = cross(m.r0, m.r2), d = cross(m.r2, m.r1), n = a + d;
+    const Pair nb = dot(n, b), nd = dot(n, d), nn = dot(n, n);
+    x = nb * nn / (nb * nb + nd * nd);
+    // Where the three quadratics are nearly multiples of one, its other zero is near a solution, too.
+    constexpr double kNearlyOne = 1e-3;
+    const Pair r22 = dot(m.r2, m.r2), r00 = dot(m.r0, m.r0), size = r22 + dot(m.r1, m.r1) + r00;
+    for (int lane = 0; lane < 2; ++lane) otherCounts[lane] = nn[lane] < kNearlyOne * kNearlyOne * (size[lane] * size[lane]);
+    const Vec3<Pair> u = m.r2 + signs(dot(m.r2, m.r0)) * m.r0;
+    other = -dot(m.r1, u) / dot(m.r2, u) - x;
+  }
+};
+
+// Those with f^2 clearly negative are left out.
 Candidates findCandidates(const OneFocalPencil& pencil, const math::Direction* roots, int count) {
   constexpr double kClearly = 1.001;
   Candidates candidates;
   for (int i = 0; i < count; i += 2) {
     const int j = std::min(i + 1, count - 1);
     const Pair c{roots[i].c, roots[j].c}, s{roots[i].s, roots[j].s};
-    const OneFocalPencil::Quadratics<Pair> m = pencil.quadratics(c, s);
-    const Vec3<Pair> a = cross(m.r1, m.r0), b = cross(m.r0, m.r2), d = cross(m.r2, m.r1);
-    // a + d is their common direction, as x^2 + 1 > 0; x = x (x^2 + 1) / (x^2 + 1) loses nothing for large x
-    const Vec3<Pair> n = a + d;
-    const Pair nb = dot(n, b), nd = dot(n, d), x = nb * dot(n, n) / (nb * nb + nd * nd);
-    const FocalDenominator<Pair> denominator(pencil.at(x, c, s));
+    const RootCoordinates root(pencil.quadratics(c, s));
+    const FocalDenominator<Pair> denominator(pencil.at(root.x, c, s));
     for (int lane = 0; lane < 2 && i + lane < count; ++lane) {
-      candidates.x[candidates.count] = x[lane];
-      candidates.c[candidates.count] = c[lane];
-      candidates.s[candidates.count] = s[lane];
-      candidates.count += denominator.minuend[lane] * kClearly > denominator.subtrahend[lane];
+      if (denominator.minuend[lane] * kClearly > denominator.subtrahend[lane]) candidates.add(root.x[lane], c[lane], s[lane]);
+      if (root.otherCounts[lane]) candidates.add(root.other[lane], c[lane], s[lane]);
     }
   }
   return candidates;
@@ -100,9 +122,7 @@ Converged refine(const OneFocalPencil& pencil, Pair& x, Pair& c, Pair& s) {
   for (int iteration = 0; iteration < 12; ++iteration) {
     const Rows<Pair> f = pencil.at(x, c, s), g = pencil.derivativePsi(c, s);
     const Vec3<Pair> v = cross(f.f1, f.f3), w = cross(f.f2, f.f3);
-    const Pair vw = dot(v, w);
-    const Pair sign{std::copysign(1.0, vw[0]), std::copysign(1.0, vw[1])};
-    const Vec3<Pair> n = v + sign * w;
+    const Vec3<Pair> n = v + signs(dot(v, w)) * w;
     const Rows<Pair> cofactor{w, cross(f.f3, f.f1), cross(f.f1, f.f2)};
     const Pair det = dot(f.f1, w), detX = dot(cofactor, b), detPsi = dot(cofactor, g);
     // n.Q = d (n.v) + e (n.w),  n.(h1 x f3) = h1.(f3 x n),  n.(f1 x h3) = h3.(n x f1)
@@ -130,8 +150,6 @@ Converged refine(const OneFocalPencil& pencil, Pair& x, Pair& c, Pair& s) {
   return {{converged[0], converged[1]}};
 }
 
-Pair squareRoot(Pair a) { return Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
-
 // f, E = diag(f, f, 1) F of squared norm 2, b its unit right null vector, R = cof(E) - E [b]x.
 struct Decomposition {
   Pair focal;
@@ -146,9 +164,7 @@ struct Decomposition {
     const Rows<Pair> E{scaleF * f.f1, scaleF * f.f2, scale * f.f3};
     // cof(E) = (R b) b^T
     const Rows<Pair> cof = cofactors(E);
-    const Pair c12 = dot(cof.f1, cof.f2), c13 = dot(cof.f1, cof.f3), c23 = dot(cof.f2, cof.f3);
-    const Pair sign2{std::copysign(1.0, c12[0]), std::copysign(1.0, c12[1])};
-    const Pair sign3{std::copysign(1.0, c13[0] + sign2[0] * c23[0]), std::copysign(1.0, c13[1] + sign2[1] * c23[1])};
+    const Pair sign2 = signs(dot(cof.f1, cof.f2)), sign3 = signs(dot(cof.f1 + sign2 * cof.f2, cof.f3));
     const Vec3<Pair> sum = cof.f1 + sign2 * cof.f2 + sign3 * cof.f3;
     baseline = (1 / squareRoot(dot(sum, sum))) * sum;
     rotation = {cof.f1 + cross(baseline, E.f1), cof.f2 + cross(baseline, E.f2), cof.f3 + cross(baseline, E.f3)};
@@ -186,10 +202,10 @@ bool SixCorrespondences::normalise() {
   return true;
 }
 
-int oneFocalFundamental(const SixCorrespondences& correspondences, int attempt, OneFocalMotion* motions) {
+int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotion* motions) {
   constexpr double kLeastFocalLength = 5e-4;  // of the largest image coordinate; what lies below belongs to f = 0
   OneFocalPencil pencil;
-  if (!pencil.build(correspondences, attempt)) return 0;
+  if (!pencil.build(correspondences)) return 0;
   math::Direction roots[kMaxRoots];
   Candidates candidates = findCandidates(pencil, roots, rootDirections(pencil, correspondences, roots));
   candidates.pad();

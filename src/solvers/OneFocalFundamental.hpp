@@ -49,9 +49,8 @@ struct OneFocalMotion {
 constexpr int kMaxOneFocalMotions = 9;
 
 // Returns the number of solutions; 0 where F is not determined (fewer than six independent constraints, six coplanar points, no
-// baseline). `attempt` = 0, 1, .. chooses other coordinates of the pencil: one attempt may lose one of two nearly equal
-// solutions that another finds.
-int oneFocalFundamental(const SixCorrespondences& correspondences, int attempt, OneFocalMotion* motions);
+// baseline).
+int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotion* motions);
 
 // Do the viewing rays of the query through (u, v) and of the calibrated camera along the unit vector a (in the query's frame)
 // meet in front of both, where the calibrated camera's centre lies in the direction T (unit, in the query's frame)?

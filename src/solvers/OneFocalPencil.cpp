@@ -53,7 +53,7 @@ constexpr double kDirections[kDirectionCount][3] = {{1, 0, 0},
 
 }  // namespace
 
-bool OneFocalPencil::build(const SixCorrespondences& correspondences, int attempt) {
+bool OneFocalPencil::build(const SixCorrespondences& correspondences) {
   PaddedMatrix basis[3];
   if (!epipolarNullSpace(correspondences, basis)) return false;
   const Rows<double> n0 = toRows(basis[0]), n1 = toRows(basis[1]), n2 = toRows(basis[2]);
@@ -63,10 +63,6 @@ bool OneFocalPencil::build(const SixCorrespondences& correspondences, int attemp
     size[i] = std::abs(determinant(kDirections[i][0], kDirections[i][1], kDirections[i][2]));
   const double* best = std::max_element(size, size + kDirectionCount);
   if (!(*best > kSingularPencil)) return false;
-  for (; attempt > 0; --attempt) {
-    size[best - size] = 0;
-    best = std::max_element(size, size + kDirectionCount);
-  }
   // The rows of the reflection that exchanges the first axis and the direction are an orthonormal basis beginning with it.
   const double* n = kDirections[best - size];
   const double wx = n[0] + std::copysign(1.0, n[0]), wy = n[1], wz = n[2];

@@ -44,9 +44,8 @@ inline const math::Vec3<double>& longest(const math::Vec3<double>& a, const math
 
 class OneFocalPencil {
  public:
-  // False if the six constraints are dependent or every matrix of the pencil is singular. B0 is the `attempt`-th best (0: best)
-  // of 13 directions of the pencil, by |det B0|.
-  bool build(const SixCorrespondences& correspondences, int attempt);
+  // False if the six constraints are dependent or every matrix of the pencil is singular.
+  bool build(const SixCorrespondences& correspondences);
 
   // The columns of M(c, s):  Q = x^2 r2 + x r1 + r0 modulo det F.
   template <class T>
