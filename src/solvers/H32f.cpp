@@ -163,7 +163,9 @@ void pad(int count, double* values) {
   for (int i = count; i % 8 != 0; ++i) values[i] = values[i - 1];
 }
 
-bool isConverged(const Candidates& candidates, int i) { return candidates.step[i] < 1e-9; }
+// Newton's method strives for a step of 1e-9; next to e = +-1 rounding may keep it from getting there. Whether a candidate is a
+// solution is decided by the original equations.
+bool isConverged(const Candidates& candidates, int i) { return candidates.step[i] < 1e-7; }
 
 // From the roots to solutions of the three equations. A candidate that Newton's method has carried away started from an
 // inaccurate root (there is another one close to it, or e is close to +-1): it tries again from an accurate one.
