@@ -1,5 +1,7 @@
 #include "solvers/solveSample.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "CheckArguments.hpp"
@@ -7,9 +9,15 @@
 namespace hybridgv {
 namespace solvers {
 
+// A focal length or a position beyond the largest double.
+static bool overflows(const FocalPose& pose) {
+  return !std::isfinite(pose.focalLength) || !pose.position.allFinite() || !pose.rotation.allFinite();
+}
+
 FocalPoses Sample::solve(SolveFunction solver, int maxSolutions) const {
   FocalPoses solutions(static_cast<std::size_t>(maxSolutions));
   solutions.resize(static_cast<std::size_t>(solver(rays.data(), points.data(), solutions.data())));
+  solutions.erase(std::remove_if(solutions.begin(), solutions.end(), overflows), solutions.end());
   return solutions;
 }
 

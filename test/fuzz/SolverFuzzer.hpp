@@ -69,8 +69,8 @@ class EquationCheck {
 
   void check(const FocalPose& pose) const {
     if (!pose.rotation.allFinite() || !pose.position.allFinite() || !std::isfinite(pose.focalLength))
-      reportFault("poses are finite");
-    if (!(pose.focalLength > 0)) reportFault("focal lengths are positive");
+      reportError("poses are finite", pose, 0, 0);
+    if (!(pose.focalLength > 0)) reportError("focal lengths are positive", pose, 0, 0);
     if (!((pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).norm() < 1e-6) ||
         !(pose.rotation.determinant() > 0))
       reportFault("rotations are rotations");
@@ -94,12 +94,15 @@ class EquationCheck {
     return kOperations * std::numeric_limits<double>::epsilon() * (f + (u * u + v * v) / f) * size / distance;
   }
 
+  // Almost perpendicular to the optical axis, where the smallest errors become large.
+  static bool isGrazing(const FocalPose& pose, double u, double v) { return std::hypot(u, v) > 1e3 * pose.focalLength; }
+
   // Written so that what overflows passes.
   void checkPoint(const FocalPose& pose, std::size_t i) const {
     const solvers::PointMatch& match = sample_.points[i];
     const Eigen::Vector3d x = pose.rotation.transpose() * (match.point - pose.position);
     const double allowed = kTolerance * imageScale_ + rounding(pose, match.u, match.v, x.norm());
-    if (!(allowed < imageScale_)) return;
+    if (!(allowed < imageScale_) || isGrazing(pose, match.u, match.v)) return;
     if (x[2] <= 0) reportError("points are in front of the query", pose, -x[2], 0);
     const double errorU = std::abs(pose.focalLength * x[0] / x[2] - match.u);
     const double errorV = std::abs(pose.focalLength * x[1] / x[2] - match.v);
@@ -117,7 +120,7 @@ class EquationCheck {
     if (!(line.norm() > 1e-6 * b.norm())) return;
     line[2] *= pose.focalLength;
     const double allowed = kTolerance * imageScale_ + rounding(pose, ray.u, ray.v, line.norm());
-    if (!(allowed < imageScale_)) return;
+    if (!(allowed < imageScale_) || isGrazing(pose, ray.u, ray.v)) return;
     if (std::abs(line.dot(Eigen::Vector3d(ray.u, ray.v, 1))) > allowed * line.head<2>().norm()) reportFault("rays are met");
   }
 

@@ -10,8 +10,8 @@ shift
 cd "$(dirname "$0")/../.."
 sh .ci/install_packages.sh clang-14 cmake ninja-build libeigen3-dev
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBUILD_SHARED_LIBS=OFF \
-  -DHYBRIDGV_BUILD_FUZZERS=ON -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF -DHYBRIDGV_BUILD_EXAMPLES=OFF
-cmake --build build/fuzz
+  -DHYBRIDGV_BUILD_FUZZERS=ON -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF -DHYBRIDGV_BUILD_EXAMPLES=OFF >&2
+cmake --build build/fuzz >&2
 [ $# -gt 0 ] || set -- p4pf p35pf h13f h32f h51f sixpt_onefocal colmap_text colmap_binary bundler nvm problem
 
 status=0
