@@ -52,10 +52,10 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
   std::vector<SolverPrior> solvers = {
       {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
-  Scoring scoring = Scoring::Msac;
-  Sampling sampling = Sampling::QualityOrdered;
-  bool localOptimization = true;  ///< optimize every new best model over its inliers
-  bool finalOptimization = true;  ///< optimize the result with a robust loss, each type weighed by its own noise
+  Scoring scoring = Scoring::Msac;               ///< what makes a pose better
+  Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
+  bool localOptimization = true;                 ///< optimize every new best model over its inliers
+  bool finalOptimization = true;                 ///< optimize the result with a robust loss, each type weighed by its own noise
   /// A pose to start from, scored before the first sample. It competes on its score alone, so a wrong one does no harm.
   std::optional<FocalPose> initialPose;
 
