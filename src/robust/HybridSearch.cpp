@@ -19,6 +19,8 @@ constexpr double kLogFalseAlarms = -6;
 // Gain of the score for which an optimization is repeated.
 constexpr double kLeastGain = 0.01;
 constexpr double kDistanceFactors[] = {1, 1.25, 1.6};
+// A minimal solution is optimized if less than one wrong pose of those tried so far is expected to look as good.
+constexpr double kLogWorthOptimizing = 0;
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 
@@ -99,10 +101,8 @@ void HybridSearch::tryBatch(int count) {
     if (!attempt.tried) continue;
     ++iterations_;
     choice_.addDraws(attempt.strategy, 1);
-    if (attempt.logFalseAlarms < (candidate ? candidate->logFalseAlarms : std::numeric_limits<double>::infinity()))
-      candidate = &attempt;
+    if (attempt.logFalseAlarms < (candidate ? candidate->logFalseAlarms : kLogWorthOptimizing)) candidate = &attempt;
   }
-  choice_.update();
   if (candidate) consider(candidate->model);
 }
 

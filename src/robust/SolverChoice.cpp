@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -40,7 +39,7 @@ std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors
 
 SolverChoice::SolverChoice(std::vector<Strategy> strategies)
     : strategies_(std::move(strategies)), drawn_(strategies_.size(), 0), cumulativeWeight_(strategies_.size(), 0) {
-  update();
+  setWeights();
 }
 
 std::size_t SolverChoice::choose(double uniform) const {
@@ -51,31 +50,20 @@ std::size_t SolverChoice::choose(double uniform) const {
 
 void SolverChoice::setAllInlierProbabilities(const std::vector<double>& probabilities) {
   allInlier_ = probabilities;
-  update();
+  setWeights();
 }
 
-void SolverChoice::update() {
+void SolverChoice::setWeights() {
   const bool isKnown = !allInlier_.empty() && *std::max_element(allInlier_.begin(), allInlier_.end()) > 0;
   std::vector<double> rates(strategies_.size());
   for (std::size_t s = 0; s < rates.size(); ++s)
     rates[s] = strategies_[s].prior * (isKnown ? allInlier_[s] : 1) / strategies_[s].cost;
-  if (isKnown) discount(rates);
-  std::partial_sum(rates.begin(), rates.end(), cumulativeWeight_.begin());
-}
-
-// Multiplies the rates by (1 - P_s)^k_s, over the largest of these, and drops the hopeless ones.
-void SolverChoice::discount(std::vector<double>& rates) const {
-  const double best = *std::max_element(rates.begin(), rates.end());
-  double largest = -std::numeric_limits<double>::infinity();
-  std::vector<double> logNotFound(rates.size());
-  for (std::size_t s = 0; s < rates.size(); ++s) {
-    if (rates[s] * kHopeless < best) rates[s] = 0;
-    logNotFound[s] = drawn_[s] > 0 ? drawn_[s] * std::log1p(-allInlier_[s]) : 0;
-    if (rates[s] > 0) largest = std::max(largest, logNotFound[s]);
+  if (isKnown) {
+    const double best = *std::max_element(rates.begin(), rates.end());
+    for (double& rate : rates)
+      if (rate * kHopeless < best) rate = 0;
   }
-  if (std::isinf(largest)) return;  // every one of them has certainly found it
-  for (std::size_t s = 0; s < rates.size(); ++s)
-    if (rates[s] > 0) rates[s] *= std::exp(logNotFound[s] - largest);
+  std::partial_sum(rates.begin(), rates.end(), cumulativeWeight_.begin());
 }
 
 double SolverChoice::missProbability() const {

@@ -22,6 +22,9 @@ struct Strategy {
 // The strategies for the given solvers that have enough data.
 std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& solvers, const Sampler& sampler);
 
+// A strategy s is drawn with probability proportional to prior x P_s / cost, P_s the probability that its sample has inliers
+// only. There is no factor (1 - P_s)^k_s for its k_s samples so far, as in Camposeco et al. (CVPR 2018): samples are independent,
+// a solver is as good after many as before, and with such a factor most of the time goes to slower solvers.
 class SolverChoice {
  public:
   explicit SolverChoice(std::vector<Strategy> strategies);
@@ -32,20 +35,18 @@ class SolverChoice {
   std::size_t choose(double uniform) const;
 
   void addDraws(std::size_t strategy, int count) { drawn_[strategy] += count; }
-  // Tells the probabilities that a sample has inliers only, by the best pose so far, and recomputes the weights. Until then every
-  // strategy gets the same share of the time, times its prior.
+  // Tells the probabilities P_s, by the best pose so far. Until then every strategy gets the same share of the time, times its
+  // prior.
   void setAllInlierProbabilities(const std::vector<double>& probabilities);
-  // Recomputes the weights after draws.
-  void update();
 
   // Probability that no sample so far had inliers only: prod (1 - P_s)^k_s; 1 until the probabilities are known.
   double missProbability() const;
 
  private:
-  void discount(std::vector<double>& rates) const;
-
   // A strategy is not drawn if another finds an all-inlier sample this many times faster.
-  static constexpr double kHopeless = 50;
+  static constexpr double kHopeless = 2;
+
+  void setWeights();
 
   std::vector<Strategy> strategies_;
   std::vector<int> drawn_;
