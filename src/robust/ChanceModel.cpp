@@ -60,7 +60,7 @@ double logTail(int n, int k, double p) {
   return -n * (q * std::log(q / p) + rest);
 }
 
-double ChanceModel::logFalseAlarms(const Support& support, double focalLength, int parameters, double tests) const {
+double ChanceModel::logProbability(const Support& support, double focalLength, int parameters) const {
   double worst = -std::numeric_limits<double>::infinity();
   const int mostPoints = std::min((parameters + 1) / 2, support.points);
   for (int points = 0; points <= mostPoints; ++points) {
@@ -69,7 +69,7 @@ double ChanceModel::logFalseAlarms(const Support& support, double focalLength, i
     worst = std::max(worst, logTail(support.allPoints - points, support.points - points, pointShare_) +
                                 logTail(support.allRays - rays, support.rays - rays, rayShare(focalLength)));
   }
-  return (worst + std::log(tests)) / std::log(10.);
+  return worst / std::log(10.);
 }
 
 }  // namespace robust

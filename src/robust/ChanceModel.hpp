@@ -23,9 +23,9 @@ class ChanceModel {
   double rayShare(double focalLength) const;
   double pointShare() const { return pointShare_; }
 
-  // Upper bound of the log10 of the expected number of wrong poses with at least this support among `tests` of them, each of
-  // which has been fitted: `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
-  double logFalseAlarms(const Support& support, double focalLength, int parameters, double tests) const;
+  // Upper bound of the log10 of the probability that a wrong pose has at least this support, although it has been fitted:
+  // `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
+  double logProbability(const Support& support, double focalLength, int parameters) const;
 
  private:
   double rayShareOfQuery_, pointShare_;

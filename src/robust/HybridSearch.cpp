@@ -19,8 +19,6 @@ constexpr double kLogFalseAlarms = -6;
 // Gain of the score for which an optimization is repeated.
 constexpr double kLeastGain = 0.01;
 constexpr double kDistanceFactors[] = {1, 1.25, 1.6};
-// A minimal solution is optimized if less than one wrong pose of those tried so far is expected to look as good.
-constexpr double kLogWorthOptimizing = 0;
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 
@@ -96,14 +94,30 @@ void HybridSearch::tryBatch(int count) {
   workers_.forEach(count, [&](int i, std::size_t worker) {
     if (!isOutOfTime()) attempts[static_cast<std::size_t>(i)] = tryHypothesis(iterations_ + i + 1, solutions_[worker]);
   });
-  const Attempt* candidate = nullptr;
+  const Attempt* candidate = &attempts.front();
   for (const Attempt& attempt : attempts) {
     if (!attempt.tried) continue;
     ++iterations_;
     choice_.addDraws(attempt.strategy, 1);
-    if (attempt.logFalseAlarms < (candidate ? candidate->logFalseAlarms : kLogWorthOptimizing)) candidate = &attempt;
+    if (attempt.isLessLikelyChance(*candidate)) candidate = &attempt;
   }
-  if (candidate) consider(candidate->model);
+  if (isWorthConsidering(*candidate)) consider(candidate->model);
+}
+
+// Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one type can
+// be much less of an accident than one of the other.
+bool HybridSearch::Attempt::isLessLikelyChance(const Attempt& other) const {
+  if (logChance != other.logChance) return logChance < other.logChance;
+  return model.evaluation.score > other.model.evaluation.score;
+}
+
+// If less than one wrong pose of those tried so far is expected to look as good; or if it is the best so far, as long as no
+// better one is known.
+bool HybridSearch::isWorthConsidering(const Attempt& candidate) {
+  if (candidate.logChance + logTests() < 0) return true;
+  if (bestIsSignificant_ || !candidate.isLessLikelyChance(bestCandidate_)) return false;
+  bestCandidate_ = candidate;
+  return true;
 }
 
 HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutions) const {
@@ -126,16 +140,14 @@ HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutio
   return attempt;
 }
 
-// Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one type can
-// be much less of an accident than one of the other.
 void HybridSearch::considerSolution(const FocalPose& pose, Attempt& attempt) const {
   if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
-  Model model{pose, scorer_.evaluate(pose, expectation_), attempt.model.solver};
-  if (!model.evaluation.complete) return;
-  const double alarms = logFalseAlarms(model);
-  if (!(alarms < attempt.logFalseAlarms)) return;
-  attempt.model = model;
-  attempt.logFalseAlarms = alarms;
+  Attempt candidate = attempt;
+  candidate.model.pose = pose;
+  candidate.model.evaluation = scorer_.evaluate(pose, expectation_);
+  if (!candidate.model.evaluation.complete) return;
+  candidate.logChance = logChance(candidate.model);
+  if (candidate.isLessLikelyChance(attempt)) attempt = candidate;
 }
 
 void HybridSearch::consider(const Model& candidate) {
@@ -149,8 +161,7 @@ void HybridSearch::consider(const Model& candidate) {
 
 // A pose that is more than chance is better than one that is not; otherwise the score decides.
 bool HybridSearch::isBetter(const Model& model) const {
-  const bool isSignificant = logFalseAlarms(model) < kLogFalseAlarms;
-  if (isSignificant != bestIsSignificant_) return isSignificant;
+  if (isSignificant(model) != bestIsSignificant_) return !bestIsSignificant_;
   return model.evaluation.score > best_.evaluation.score;
 }
 
@@ -176,7 +187,7 @@ void HybridSearch::escapeLocalOptimum(Model& model) {
 
 void HybridSearch::setBest(const Model& model) {
   best_ = model;
-  bestIsSignificant_ = logFalseAlarms(model) < kLogFalseAlarms;
+  bestIsSignificant_ = isSignificant(model);
   if (!bestIsSignificant_) return;
   std::vector<char> rays, points;
   scorer_.inliers(model.pose, rays, points);
@@ -196,9 +207,13 @@ Support HybridSearch::support(const Evaluation& evaluation) const {
   return {evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
 }
 
-double HybridSearch::logFalseAlarms(const Model& model) const {
-  return chance_.logFalseAlarms(support(model.evaluation), model.pose.focalLength, kParameters, iterations_ + 1);
+double HybridSearch::logChance(const Model& model) const {
+  return chance_.logProbability(support(model.evaluation), model.pose.focalLength, kParameters);
 }
+
+double HybridSearch::logTests() const { return std::log10(iterations_ + 1.); }
+
+bool HybridSearch::isSignificant(const Model& model) const { return logChance(model) + logTests() < kLogFalseAlarms; }
 
 bool HybridSearch::isOutOfTime() const {
   return std::isfinite(options_.timeBudgetSeconds) &&
@@ -227,7 +242,7 @@ FinalPose HybridSearch::finish(bool optimize) {
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
 // chance, with one parameter left to fit.
 sac::FailureReason HybridSearch::verify(bool isRegular) const {
-  if (!(logFalseAlarms(best_) < kLogFalseAlarms)) return sac::FailureReason::InliersMayBeChance;
+  if (!isSignificant(best_)) return sac::FailureReason::InliersMayBeChance;
   std::vector<char> rays, points;
   scorer_.inliers(best_.pose, rays, points);
   const std::vector<int> perCamera = sampler_.count(rays, points).raysPerCamera;
@@ -236,7 +251,7 @@ sac::FailureReason HybridSearch::verify(bool isRegular) const {
     Support rest = support(best_.evaluation);
     rest.rays -= *largest;
     rest.allRays -= sampler_.numberRays(static_cast<std::size_t>(largest - perCamera.begin()));
-    if (!(chance_.logFalseAlarms(rest, best_.pose.focalLength, 1, iterations_ + 1) < kLogFalseAlarms))
+    if (!(chance_.logProbability(rest, best_.pose.focalLength, 1) + logTests() < kLogFalseAlarms))
       return sac::FailureReason::UndeterminedPose;
   }
   return isRegular ? sac::FailureReason::None : sac::FailureReason::UndeterminedPose;

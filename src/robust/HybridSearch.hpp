@@ -3,7 +3,6 @@
 
 #include <array>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -54,12 +53,13 @@ class HybridSearch {
  private:
   // What a hypothesis came to: its best solution, if that can matter.
   struct Attempt {
+    bool isLessLikelyChance(const Attempt& other) const;
+
     std::size_t strategy = 0;
     bool tried = false;
     Model model;
-    double logFalseAlarms = std::numeric_limits<double>::infinity();
+    double logChance = 0;
   };
-
   using Solutions = std::array<FocalPose, solvers::kMaxSolutions>;
 
   void tryInitialPose();
@@ -71,8 +71,11 @@ class HybridSearch {
   void optimizeFrom(const FocalPose& start, Model& model);
   void escapeLocalOptimum(Model& model);
   void setBest(const Model& model);
-  // log10 of the expected number of wrong poses among all so far that look as good.
-  double logFalseAlarms(const Model& model) const;
+  bool isWorthConsidering(const Attempt& candidate);
+  // log10 of the probability that a wrong pose looks as good, and of the number of poses tried so far.
+  double logChance(const Model& model) const;
+  double logTests() const;
+  bool isSignificant(const Model& model) const;
   bool isBetter(const Model& model) const;
   bool isDone();
   bool isOutOfTime() const;
@@ -91,6 +94,7 @@ class HybridSearch {
   std::vector<Solutions> solutions_;  // one scratch buffer per worker
 
   Model best_;
+  Attempt bestCandidate_;
   bool bestIsSignificant_ = false;
   Expectation expectation_;
   int iterations_ = 0, localOptimizations_ = 0;

@@ -70,16 +70,16 @@ TEST(ChanceModel, more_inliers_are_less_likely_chance_and_fitted_ones_prove_noth
   const ChanceModel chance(data.arrays, 6, 12);
   double last = 1;
   for (const int inliers : {10, 20, 40, 80}) {
-    const double alarms = chance.logFalseAlarms({inliers, 200, inliers, 200}, 1000, kParameters, 1000);
+    const double alarms = chance.logProbability({inliers, 200, inliers, 200}, 1000, kParameters);
     EXPECT_LT(alarms, last);
     last = alarms;
   }
   EXPECT_LT(last, -50);
-  EXPECT_GE(chance.logFalseAlarms({4, 4, 0, 0}, 1000, kParameters, 1), 0) << "four points are fitted by any of their poses";
-  EXPECT_GE(chance.logFalseAlarms({3, 3, 1, 1}, 1000, kParameters, 1), 0);
-  EXPECT_GE(chance.logFalseAlarms({1, 1, 5, 5}, 1000, kParameters, 1), 0);
-  EXPECT_LT(chance.logFalseAlarms({12, 12, 0, 0}, 1000, kParameters, 1000), -6);
-  EXPECT_LT(chance.logFalseAlarms({3, 3, 40, 60}, 1000, kParameters, 1000), -6) << "rays alone may do";
+  EXPECT_GE(chance.logProbability({4, 4, 0, 0}, 1000, kParameters), 0) << "four points are fitted by any of their poses";
+  EXPECT_GE(chance.logProbability({3, 3, 1, 1}, 1000, kParameters), 0);
+  EXPECT_GE(chance.logProbability({1, 1, 5, 5}, 1000, kParameters), 0);
+  EXPECT_LT(chance.logProbability({12, 12, 0, 0}, 1000, kParameters), -6);
+  EXPECT_LT(chance.logProbability({3, 3, 40, 60}, 1000, kParameters), -6) << "rays alone may do";
 }
 
 }  // namespace

@@ -122,10 +122,11 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 /// Each iteration draws a solver and a sample of it, and scores every solution over all correspondences of both types, the errors
 /// divided by their own thresholds. A solver is drawn with probability proportional to
 ///
-///     prior x P_s x (1 - P_s)^k_s / cost_s,
+///     prior x P_s / cost_s,
 ///
-/// P_s the (hypergeometric) probability that a sample of solver s has inliers only, by the best model so far, k_s the number of
-/// its samples so far. Every new best model is optimized over both types. The search ends when
+/// P_s the (hypergeometric) probability that a sample of solver s has inliers only, by the best model so far, cost_s its time; a
+/// solver that finds such samples much more slowly than another is not drawn. Promising models are optimized over both types,
+/// each with its own truncation. With k_s samples of solver s so far, the search ends when
 ///
 ///     prod_s (1 - P_s)^k_s < 1 - successProbability.
 ///
