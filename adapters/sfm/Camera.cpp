@@ -56,8 +56,9 @@ struct RadialMap {
     const double discriminant = 9 * k1 * k1 - 20 * k2;
     if (discriminant < 0) return kInfinity;
     // The zeros are 2 / (-3 k1 -+ sqrt(discriminant)), in this form also for k2 = 0; the larger denominator gives the smaller
-    // one.
-    const double denominator = -3 * k1 + std::sqrt(discriminant);
+    // one. It is -20 k2 / (3 k1 + sqrt(discriminant)), which does not cancel for k1 > 0.
+    const double root = std::sqrt(discriminant);
+    const double denominator = k1 > 0 ? -20 * k2 / (3 * k1 + root) : -3 * k1 + root;
     return denominator > 0 ? std::sqrt(2 / denominator) : kInfinity;
   }
 
@@ -66,7 +67,8 @@ struct RadialMap {
   double inverse(double value) const {
     double low = 0, high = largestRadius();
     if (high == kInfinity) {
-      for (high = std::max(value, 1e-6); (*this)(high) < value; high *= 2) low = high;
+      for (high = std::max(value, 1e-6); (*this)(high) < value && high < kInfinity; high *= 2) low = high;
+      if (high == kInfinity) return -1;
     } else if (!((*this)(high) >= value)) {
       return -1;
     }

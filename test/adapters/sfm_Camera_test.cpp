@@ -124,6 +124,16 @@ TEST(Camera, StrongDistortionIsInvertedWhereverTheFormulaGrows) {
   }
 }
 
+// k1 > 0 and a tiny k2 < 0: the formula grows up to a radius of about 5e14, which 9 k1^2 - 20 k2 in double precision does not show.
+TEST(Camera, AlmostCubicDistortionIsInverted) {
+  Camera camera = makeCamera(CameraModel::Radial);
+  camera.parameters = {1, 0, 0, 1, -1e-30};
+  const auto point = undistort(camera, 1e30, 0);
+  ASSERT_TRUE(point);
+  EXPECT_NEAR((*point)[0], 1e10, 10);
+  EXPECT_FALSE(undistort(camera, 1e60, 0));
+}
+
 TEST(Camera, TangentialDistortionIsInvertedOrRefused) {
   test::Random random(test::testSeed(), 2);
   int solved = 0;
