@@ -63,8 +63,7 @@ bool epipolarNullSpace(const SixCorrespondences& correspondences, PaddedMatrix* 
   for (int k = 0; k < kSix; ++k) {
     const double u = correspondences.u[k], v = correspondences.v[k];
     const double scale = 1 / std::sqrt(u * u + v * v + 1);
-    const double x = scale * correspondences.direction[k][0], y = scale * correspondences.direction[k][1],
-                 z = scale * correspondences.direction[k][2];
+    const double x = scale * correspondences.x[k], y = scale * correspondences.y[k], z = scale * correspondences.z[k];
     reflections.row[k] = {Pair{u * x, u * y}, Pair{u * z, v * x}, Pair{v * y, v * z}, Pair{x, y}, Pair{z, 0}};
   }
   if (!reflections.reduceFrom<0>()) return false;

@@ -5,6 +5,7 @@
 
 #include "math/BinaryFormRoots.hpp"
 #include "math/Vec3.hpp"
+#include "solvers/OneFocalDecomposition.hpp"
 #include "solvers/OneFocalPencil.hpp"
 
 namespace hybridgv {
@@ -16,10 +17,6 @@ using math::Vec3;
 
 constexpr int kMaxRoots = math::BinaryFormRoots<9>::kMaxRoots;
 constexpr int kMaxCandidates = 2 * kMaxRoots + 2;
-
-Pair squareRoot(Pair a) { return Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
-// 1 or -1
-Pair signs(Pair a) { return Pair{std::copysign(1.0, a[0]), std::copysign(1.0, a[1])}; }
 
 // Zeros F = x B0 + c B1 + s B2 of det F and Q, to be; as arrays, so that two are treated at once.
 struct Candidates {
@@ -60,18 +57,6 @@ int rootDirections(const OneFocalPencil& pencil, const SixCorrespondences& data,
       },
       roots);
 }
-
-// |f3|^4 / f^2 = |f1 x f3|^2 + |f2 x f3|^2 - (f1.f3)^2 - (f2.f3)^2 as minuend and subtrahend.
-template <class T>
-struct FocalDenominator {
-  T minuend, subtrahend;
-
-  explicit FocalDenominator(const Rows<T>& f) {
-    const Vec3<T> v = cross(f.f1, f.f3), w = cross(f.f2, f.f3);
-    const T d = dot(f.f1, f.f3), e = dot(f.f2, f.f3);
-    minuend = dot(v, v) + dot(w, w), subtrahend = d * d + e * e;
-  }
-};
 
 // The two x of a root of the form, from the quadratics x^2 r2 + x r1 + r0 = 0.
 struct RootCoordinates {
@@ -150,44 +135,11 @@ Converged refine(const OneFocalPencil& pencil, Pair& x, Pair& c, Pair& s) {
   return {{converged[0], converged[1]}};
 }
 
-// f, E = diag(f, f, 1) F of squared norm 2, b its unit right null vector, R = cof(E) - E [b]x.
-struct Decomposition {
-  Pair focal;
-  Rows<Pair> rotation;
-  Vec3<Pair> baseline;
-
-  explicit Decomposition(const Rows<Pair>& f) {
-    const FocalDenominator<Pair> denominator(f);
-    const Pair ff = dot(f.f3, f.f3);
-    focal = ff / squareRoot(denominator.minuend - denominator.subtrahend);
-    const Pair scale = squareRoot(2 / (focal * focal * (dot(f.f1, f.f1) + dot(f.f2, f.f2)) + ff)), scaleF = scale * focal;
-    const Rows<Pair> E{scaleF * f.f1, scaleF * f.f2, scale * f.f3};
-    // cof(E) = (R b) b^T
-    const Rows<Pair> cof = cofactors(E);
-    const Pair sign2 = signs(dot(cof.f1, cof.f2)), sign3 = signs(dot(cof.f1 + sign2 * cof.f2, cof.f3));
-    const Vec3<Pair> sum = cof.f1 + sign2 * cof.f2 + sign3 * cof.f3;
-    baseline = (1 / squareRoot(dot(sum, sum))) * sum;
-    rotation = {cof.f1 + cross(baseline, E.f1), cof.f2 + cross(baseline, E.f2), cof.f3 + cross(baseline, E.f3)};
-  }
-
-  OneFocalMotion lane(int i) const {
-    OneFocalMotion motion;
-    motion.focalLength = focal[i];
-    motion.baseline = {baseline.x[i], baseline.y[i], baseline.z[i]};
-    motion.rotation << rotation.f1.x[i], rotation.f1.y[i], rotation.f1.z[i],  //
-        rotation.f2.x[i], rotation.f2.y[i], rotation.f2.z[i],                 //
-        rotation.f3.x[i], rotation.f3.y[i], rotation.f3.z[i];
-    motion.baselineInQuery = motion.rotation * motion.baseline;
-    return motion;
-  }
-};
-
 bool isNew(const OneFocalMotion& motion, const OneFocalMotion* motions, int count) {
   constexpr double kSame = 1e-7;
   for (int i = 0; i < count; ++i)
     if (std::abs(motion.focalLength / motions[i].focalLength - 1) < kSame &&
-        ((motion.rotation - motions[i].rotation).squaredNorm() < kSame * kSame ||
-         (motion.rotation - motions[i].otherRotation()).squaredNorm() < kSame * kSame))
+        (motion.rotation - motions[i].rotation).squaredNorm() < kSame * kSame)
       return false;
   return true;
 }
@@ -213,27 +165,18 @@ int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotio
   for (int i = 0; i < candidates.count; i += 2) {
     Pair x = math::loadPair(candidates.x + i), c = math::loadPair(candidates.c + i), s = math::loadPair(candidates.s + i);
     const Converged converged = refine(pencil, x, c, s);
-    const Decomposition decomposition(pencil.at(x, c, s));
+    const OneFocalDecomposition decomposition(pencil.at(x, c, s));
+    const OneFocalOrientation orientation(correspondences, decomposition);
     for (int lane = 0; lane < 2 && i + lane < candidates.count; ++lane) {
       if (!converged.lane[lane] || !(decomposition.focal[lane] > kLeastFocalLength)) continue;
-      const OneFocalMotion motion = decomposition.lane(lane);
-      if (!motion.rotation.allFinite() || !isNew(motion, motions, count)) continue;
+      OneFocalMotion motion;
+      if (!orientation.motion(decomposition, lane, motion) || !isNew(motion, motions, count)) continue;
       // More than the equations' degree: they have a continuum of solutions.
       if (count == kMaxOneFocalMotions) return 0;
       motions[count++] = motion;
     }
   }
   return count;
-}
-
-bool meetInFront(double u, double v, double f, const Eigen::Vector3d& a, const Eigen::Vector3d& T) {
-  constexpr double kLeastAngle = 1e-10;  // of either ray with T [rad]
-  const Vec3<double> p{u, v, f}, ray{a[0], a[1], a[2]}, t{T[0], T[1], T[2]};
-  // n = p x a is normal to the epipolar plane;  kappa p x T = -beta n,  kappa a x T = -lambda n.
-  const Vec3<double> n = cross(p, ray);
-  const double beta = dot(n, cross(p, t)), lambda = dot(n, cross(ray, t));
-  const double least = kLeastAngle * kLeastAngle * dot(n, n);
-  return beta < 0 && lambda < 0 && beta * beta > least * dot(p, p) && lambda * lambda > least;
 }
 
 }  // namespace solvers

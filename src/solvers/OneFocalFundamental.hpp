@@ -26,24 +26,25 @@ namespace solvers {
 
 constexpr int kSix = 6;
 
-// The six correspondences, image points divided by imageScale = their largest coordinate.
+// The six correspondences.
 struct SixCorrespondences {
-  double u[kSix], v[kSix];
+  double u[kSix], v[kSix];           // image points, divided by imageScale = their largest coordinate
+  double x[kSix], y[kSix], z[kSix];  // viewing directions of the calibrated camera, of length 1
   double imageScale;
-  Eigen::Vector3d direction[kSix];  // unit length
 
+  void set(int k, double imageU, double imageV, const Eigen::Vector3d& direction) {
+    u[k] = imageU, v[k] = imageV, x[k] = direction[0], y[k] = direction[1], z[k] = direction[2];
+  }
   // Divides u, v by their largest magnitude; false if all are 0.
   bool normalise();
 };
 
-// A solution up to the sign of b and the choice between two rotations:  E = [R b]x R.
+// Pose up to the length of the baseline, where all six points lie in front of both cameras.
 struct OneFocalMotion {
   double focalLength;               // for the normalised image points
-  Eigen::Vector3d baseline;         // b, unit, in the calibrated camera's frame: the query's centre is at +b or -b
-  Eigen::Matrix3d rotation;         // R, calibrated camera -> query; the other one is (2 (R b)(R b)^T - I) R
-  Eigen::Vector3d baselineInQuery;  // R b, the same for both rotations
-
-  Eigen::Matrix3d otherRotation() const { return 2 * baselineInQuery * (baselineInQuery.transpose() * rotation) - rotation; }
+  Eigen::Matrix3d rotation;         // R, calibrated camera -> query
+  Eigen::Vector3d baseline;         // b, unit, from the query's centre to the calibrated camera's, in the latter's frame
+  Eigen::Vector3d baselineInQuery;  // R b
 };
 
 constexpr int kMaxOneFocalMotions = 9;
@@ -51,14 +52,6 @@ constexpr int kMaxOneFocalMotions = 9;
 // Returns the number of solutions; 0 where F is not determined (fewer than six independent constraints, six coplanar points, no
 // baseline).
 int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotion* motions);
-
-// Do the viewing rays of the query through (u, v) and of the calibrated camera along the unit vector a (in the query's frame)
-// meet in front of both, where the calibrated camera's centre lies in the direction T (unit, in the query's frame)?
-//
-//     kappa T + beta a = lambda (u, v, f):  beta > 0, lambda > 0 for a kappa > 0.
-//
-// A ray through the other camera's centre, or almost, has no such point.
-bool meetInFront(double u, double v, double f, const Eigen::Vector3d& a, const Eigen::Vector3d& T);
 
 }  // namespace solvers
 }  // namespace hybridgv

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/OneFocalFundamental.hpp"
 #include "solvers/h51f/Reduction.hpp"
 #include "solvers/h51f/StartSystems.hpp"
+#include "solvers/meetInFront.hpp"
 
 namespace hybridgv {
 namespace h51f {
