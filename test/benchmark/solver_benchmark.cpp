@@ -77,51 +77,59 @@ struct Statistics {
   }
 };
 
-void registerSolver(const RowDescription& description) {
-  struct Data {
-    std::vector<NoncentralHybridAdapter> adapters;
-    MultiIndices indices;
-    Statistics statistics;
-  };
-  const auto data = std::make_shared<Data>();
-  int rays = 0;
-  for (int count : description.raysPerCamera) rays += count;
-  data->indices.resize(2);
-  for (int i = 0; i < rays; ++i) data->indices[0].push_back(i);
-  for (int i = 0; i < description.points; ++i) data->indices[1].push_back(i);
-  for (std::uint64_t i = 0; i < kProblems; ++i) {
-    test::Random random(kSeed, i);
-    const test::MinimalProblem problem = test::makeMinimalProblem(random, description.raysPerCamera, description.points);
-    data->adapters.push_back(test::makeAdapter(problem));
-    const FocalPoses solutions = description.call(data->adapters.back(), data->indices);
-    data->statistics.add(solutions.size(), test::distanceToNearest(solutions, problem.truth));
+// The problems of a row and what is found; made when the row is first run.
+struct SolverData {
+  std::vector<NoncentralHybridAdapter> adapters;
+  MultiIndices indices = MultiIndices(2);
+  Statistics statistics;
+
+  explicit SolverData(const RowDescription& row) {
+    int rays = 0;
+    for (int count : row.raysPerCamera) rays += count;
+    for (int i = 0; i < rays; ++i) indices[0].push_back(i);
+    for (int i = 0; i < row.points; ++i) indices[1].push_back(i);
+    for (std::uint64_t i = 0; i < kProblems; ++i) {
+      test::Random random(kSeed, i);
+      const test::MinimalProblem problem = test::makeMinimalProblem(random, row.raysPerCamera, row.points);
+      adapters.push_back(test::makeAdapter(problem));
+      const FocalPoses solutions = row.call(adapters.back(), indices);
+      statistics.add(solutions.size(), test::distanceToNearest(solutions, problem.truth));
+    }
   }
-  benchmark::RegisterBenchmark(description.name, [data, call = description.call](benchmark::State& state) {
+};
+
+void registerSolver(const RowDescription& row) {
+  benchmark::RegisterBenchmark(row.name, [&row, data = std::shared_ptr<SolverData>()](benchmark::State& state) mutable {
+    if (!data) data = std::make_shared<SolverData>(row);
     std::size_t i = 0;
     for (auto _ : state) {
-      benchmark::DoNotOptimize(call(data->adapters[i], data->indices));
+      benchmark::DoNotOptimize(row.call(data->adapters[i], data->indices));
       i = (i + 1) % kProblems;
     }
     data->statistics.writeTo(state);
   });
 }
 
-void registerGp3p() {
-  struct Data {
-    std::vector<std::unique_ptr<Gp3pProblem>> problems;
-    Statistics statistics;
-  };
-  const auto data = std::make_shared<Data>();
-  for (std::uint64_t i = 0; i < kProblems; ++i) {
-    test::Random random(kSeed, i);
-    data->problems.push_back(std::make_unique<Gp3pProblem>(random));
-    const Gp3pProblem& problem = *data->problems.back();
-    const opengv::transformations_t solutions = opengv::absolute_pose::gp3p(problem.adapter());
-    double error = 1;
-    for (const auto& solution : solutions) error = std::min(error, (solution.leftCols<3>() - problem.truthRotation()).norm());
-    data->statistics.add(solutions.size(), error);
+struct Gp3pData {
+  std::vector<std::unique_ptr<Gp3pProblem>> problems;
+  Statistics statistics;
+
+  Gp3pData() {
+    for (std::uint64_t i = 0; i < kProblems; ++i) {
+      test::Random random(kSeed, i);
+      problems.push_back(std::make_unique<Gp3pProblem>(random));
+      const Gp3pProblem& problem = *problems.back();
+      const opengv::transformations_t solutions = opengv::absolute_pose::gp3p(problem.adapter());
+      double error = 1;
+      for (const auto& solution : solutions) error = std::min(error, (solution.leftCols<3>() - problem.truthRotation()).norm());
+      statistics.add(solutions.size(), error);
+    }
   }
-  benchmark::RegisterBenchmark("gp3p", [data](benchmark::State& state) {
+};
+
+void registerGp3p() {
+  benchmark::RegisterBenchmark("gp3p", [data = std::shared_ptr<Gp3pData>()](benchmark::State& state) mutable {
+    if (!data) data = std::make_shared<Gp3pData>();
     const std::vector<int> indices{0, 1, 2};
     std::size_t i = 0;
     for (auto _ : state) {
