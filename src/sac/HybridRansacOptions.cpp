@@ -17,7 +17,7 @@ void HybridRansacOptions::check() const {
   require(positiveFinite(maxEpipolarErrorPx), "maxEpipolarErrorPx", maxEpipolarErrorPx, "positive and finite");
   require(successProbability > 0 && successProbability < 1, "successProbability", successProbability, "between 0 and 1");
   require(maxIterations > 0, "maxIterations", maxIterations, "positive");
-  require(minIterations >= 0 && minIterations <= maxIterations, "minIterations", minIterations, "in 0 .. maxIterations");
+  require(minIterations >= 0, "minIterations", minIterations, "not negative");
   require(timeBudgetSeconds > 0, "timeBudgetSeconds", timeBudgetSeconds, "positive");
   require(minFocalLength >= 0 && std::isfinite(minFocalLength), "minFocalLength", minFocalLength, "finite and not negative");
   require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength, "greater than minFocalLength");

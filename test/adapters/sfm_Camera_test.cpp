@@ -124,7 +124,8 @@ TEST(Camera, StrongDistortionIsInvertedWhereverTheFormulaGrows) {
   }
 }
 
-// k1 > 0 and a tiny k2 < 0: the formula grows up to a radius of about 5e14, which 9 k1^2 - 20 k2 in double precision does not show.
+// k1 > 0 and a tiny k2 < 0: the formula grows up to a radius of about 5e14, which 9 k1^2 - 20 k2 in double precision does not
+// show.
 TEST(Camera, AlmostCubicDistortionIsInverted) {
   Camera camera = makeCamera(CameraModel::Radial);
   camera.parameters = {1, 0, 0, 1, -1e-30};

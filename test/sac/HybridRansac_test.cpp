@@ -368,7 +368,6 @@ TEST(HybridRansac, wrong_options_are_refused) {
       [](auto& o) { o.successProbability = 1; },
       [](auto& o) { o.maxIterations = 0; },
       [](auto& o) { o.minIterations = -1; },
-      [](auto& o) { o.minIterations = o.maxIterations + 1; },
       [](auto& o) { o.timeBudgetSeconds = 0; },
       [](auto& o) { o.minFocalLength = -1; },
       [](auto& o) { o.minFocalLength = 100, o.maxFocalLength = 50; },

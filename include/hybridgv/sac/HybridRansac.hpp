@@ -42,7 +42,9 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
 
   /// Stop when the probability to have missed a sample of inliers only, over all solvers together, is below 1 minus this.
   double successProbability = 0.9999;
-  int minIterations = 0;                                               ///< samples drawn at least
+  /// Samples drawn at least (if maxIterations allows): noisy data have local optima that look good enough to stop at, and a few
+  /// more samples are cheap.
+  int minIterations = 50;
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
 
