@@ -33,14 +33,14 @@ HYBRIDGV_INLINE void solveInPlace(Complex<V> (&a)[N][Columns]) {
 #pragma GCC unroll 8
     for (int row = k + 1; row < N; ++row)
 #pragma GCC unroll 8
-      for (int c = k + 1; c < Columns; ++c) a[row][c] = a[row][c] - a[row][k] * a[k][c];
+      for (int c = k + 1; c < Columns; ++c) a[row][c] = subtractProduct(a[row][c], a[row][k], a[k][c]);
   }
 #pragma GCC unroll 8
   for (int k = N - 1; k > 0; --k)
 #pragma GCC unroll 8
     for (int row = 0; row < k; ++row)
 #pragma GCC unroll 8
-      for (int c = N; c < Columns; ++c) a[row][c] = a[row][c] - a[row][k] * a[k][c];
+      for (int c = N; c < Columns; ++c) a[row][c] = subtractProduct(a[row][c], a[row][k], a[k][c]);
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET

@@ -14,7 +14,9 @@
 //   kAbsolute      the first kAbsolute unknowns get Newton steps dx, measured relative to sqrt(1 + |x|^2); the others, which
 //   cannot
 //                  vanish, get relative steps dx/x: multiplicative unknowns are better scaled so
-//   evaluate<derivative>(coefficients, t, x, rows)
+//   Homotopy<Scalar>, Data<V>, dataAt(homotopy, t, data)
+//                  how the coefficients of F depend on t, and their values at one t per lane
+//   evaluate<derivative>(homotopy, t, data, x, rows)
 //                  rows[N][N+1] = [dF/dx | F], or rows[N][N+2] = [dF/dx | F | dF/dt] if derivative is true, with derivatives with
 //                  respect to log x for the multiplicative unknowns
 #pragma once
@@ -75,7 +77,7 @@ HYBRIDGV_INLINE V newtonUpdate(const Complex<V> (&rows)[System::kUnknowns][Colum
       relative /= squaredNorm(x[k]) + 1;
       x[k] = x[k] - step;
     } else {
-      x[k] = x[k] - x[k] * step;
+      x[k] = subtractProduct(x[k], x[k], step);
     }
     size = relative < size ? size : relative;
   }
@@ -115,15 +117,17 @@ class PathTracker {
  public:
   using Scalar = Real<V>;
   static constexpr int N = System::kUnknowns, W = LaneTraits<V>::kWidth;
-  using Coefficients = typename System::template Coefficients<Scalar>;
+  using Homotopy = typename System::template Homotopy<Scalar>;
 
   // The tangents dx/dt at starts[paths[i]], by Newton's linear system at t = 0.
-  static void startTangents(const Coefficients& coefficients, const Point<Scalar, N>* starts, const int* paths, int count,
+  static void startTangents(const Homotopy& homotopy, const Point<Scalar, N>* starts, const int* paths, int count,
                             Point<Scalar, N>* tangents) {
     for (int first = 0; first < count; first += W) {
       Complex<V> x[N], tangent[N], rows[N][N + 2];
+      typename System::template Data<V> data;
       loadLanes(starts, paths + first, count - first, x);
-      System::template evaluate<true>(coefficients, V{}, x, rows);
+      System::dataAt(homotopy, V{}, data);
+      System::template evaluate<true>(homotopy, V{}, data, x, rows);
       solveInPlace<Pivoting::Rows>(rows);
       tangentFrom<System>(rows, x, tangent);
       for (int lane = 0; lane < W && first + lane < count; ++lane) storeLane(tangent, lane, tangents[paths[first + lane]]);
@@ -131,22 +135,16 @@ class PathTracker {
   }
 
   // Tracks the `count` paths that start at starts[paths[i]]; the end of path i goes to ends[paths[i]].
-  static void track(const Coefficients& coefficients, const Point<Scalar, N>* starts, const Point<Scalar, N>* tangents,
-                    const int* paths, int count, const TrackingOptions& options, PathEnd<Scalar, N>* ends) {
-    PathTracker tracker(coefficients, starts, tangents, paths, count, options, ends);
+  static void track(const Homotopy& homotopy, const Point<Scalar, N>* starts, const Point<Scalar, N>* tangents, const int* paths,
+                    int count, const TrackingOptions& options, PathEnd<Scalar, N>* ends) {
+    PathTracker tracker(homotopy, starts, tangents, paths, count, options, ends);
     while (tracker.active_) tracker.attempt();
   }
 
  private:
-  PathTracker(const Coefficients& coefficients, const Point<Scalar, N>* starts, const Point<Scalar, N>* tangents,
-              const int* paths, int count, const TrackingOptions& options, PathEnd<Scalar, N>* ends)
-      : coefficients_(coefficients),
-        starts_(starts),
-        tangents_(tangents),
-        paths_(paths),
-        count_(count),
-        options_(options),
-        ends_(ends) {
+  PathTracker(const Homotopy& homotopy, const Point<Scalar, N>* starts, const Point<Scalar, N>* tangents, const int* paths,
+              int count, const TrackingOptions& options, PathEnd<Scalar, N>* ends)
+      : homotopy_(homotopy), starts_(starts), tangents_(tangents), paths_(paths), count_(count), options_(options), ends_(ends) {
     if (count > 0)
       for (int lane = 0; lane < W; ++lane) load(lane);
   }
@@ -177,8 +175,10 @@ class PathTracker {
     const V s = step / past_ + 1;
 #pragma GCC unroll 8
     for (int k = 0; k < N; ++k) x[k] = extrapolate(x0_[k], tangent0_[k], x1_[k], tangent1_[k], past_, s, curved_);
-    const V first = firstNewtonStep(t, x);
-    System::template evaluate<true>(coefficients_, t, x, rows);
+    typename System::template Data<V> data;
+    System::dataAt(homotopy_, t, data);
+    const V first = firstNewtonStep(t, data, x);
+    System::template evaluate<true>(homotopy_, t, data, x, rows);
     solveInPlace<pivoting>(rows);
     tangentFrom<System>(rows, x, tangent);
     const V second = newtonUpdate<System>(rows, x);
@@ -186,7 +186,7 @@ class PathTracker {
     const Mask<V> accepted = (first < square(options_.acceptFirst)) & (second < square(options_.acceptSecond));
     const V change = squareRoot(squareRoot(squareRoot(square(options_.tolerance) / first)));
     const V growth = smaller(larger(change, broadcast<V>(Scalar(0.25))),
-                             select(accepted, broadcast<V>(Scalar(2.5)), broadcast<V>(Scalar(0.6))));
+                             select(accepted, broadcast<V>(Scalar(2.5)), broadcast<V>(Scalar(0.7))));
     step_ = smaller(step * growth, broadcast<V>(static_cast<Scalar>(options_.largestStep)));
     attempts_ += 1;
     const Mask<V> failed = (~accepted & (step_ < static_cast<Scalar>(options_.smallestStep))) |
@@ -205,9 +205,9 @@ class PathTracker {
     if (finished) replace(finished, reached);
   }
 
-  V firstNewtonStep(V t, Complex<V> (&x)[N]) {
+  V firstNewtonStep(V t, const typename System::template Data<V>& data, Complex<V> (&x)[N]) {
     Complex<V> rows[N][N + 1];
-    System::template evaluate<false>(coefficients_, t, x, rows);
+    System::template evaluate<false>(homotopy_, t, data, x, rows);
     solveInPlace<pivoting>(rows);
     return newtonUpdate<System>(rows, x);
   }
@@ -225,7 +225,7 @@ class PathTracker {
 
   static Scalar square(double x) { return static_cast<Scalar>(x * x); }
 
-  const Coefficients& coefficients_;
+  const Homotopy& homotopy_;
   const Point<Scalar, N>*starts_, *tangents_;
   const int* paths_;
   int count_, next_ = 0;
@@ -242,16 +242,18 @@ class PathTracker {
 };
 
 // Newton steps at t on points[indices[..]]; the last step's size to lastStep[indices[..]].
-template <class System, class V, Pivoting pivoting, class Coefficients>
-void newtonSteps(const Coefficients& coefficients, Real<V> t, Point<Real<V>, System::kUnknowns>* points, const int* indices,
-                 int count, int steps, Real<V>* lastStep) {
+template <class System, class V, Pivoting pivoting, class Homotopy>
+void newtonSteps(const Homotopy& homotopy, Real<V> t, Point<Real<V>, System::kUnknowns>* points, const int* indices, int count,
+                 int steps, Real<V>* lastStep) {
   constexpr int N = System::kUnknowns, W = LaneTraits<V>::kWidth;
   for (int first = 0; first < count; first += W) {
     Complex<V> x[N], rows[N][N + 1];
+    typename System::template Data<V> data;
     loadLanes(points, indices + first, count - first, x);
+    System::dataAt(homotopy, broadcast<V>(t), data);
     V size = V{};
     for (int step = 0; step < steps; ++step) {
-      System::template evaluate<false>(coefficients, broadcast<V>(t), x, rows);
+      System::template evaluate<false>(homotopy, broadcast<V>(t), data, x, rows);
       solveInPlace<pivoting>(rows);
       size = newtonUpdate<System>(rows, x);
     }

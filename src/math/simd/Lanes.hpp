@@ -128,6 +128,15 @@ template <class V>
 HYBRIDGV_INLINE Complex<V> operator*(const V& a, const Complex<V>& b) {
   return {a * b.re, a * b.im};
 }
+// c + a b and c - a b, in two fused operations per part where the processor has them
+template <class V>
+HYBRIDGV_INLINE Complex<V> addProduct(const Complex<V>& c, const Complex<V>& a, const Complex<V>& b) {
+  return {c.re + a.re * b.re - a.im * b.im, c.im + a.re * b.im + a.im * b.re};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> subtractProduct(const Complex<V>& c, const Complex<V>& a, const Complex<V>& b) {
+  return {c.re - a.re * b.re + a.im * b.im, c.im - a.re * b.im - a.im * b.re};
+}
 template <class V>
 HYBRIDGV_INLINE Complex<V> twice(const Complex<V>& a) {
   return {a.re + a.re, a.im + a.im};

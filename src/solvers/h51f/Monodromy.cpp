@@ -12,7 +12,6 @@ using namespace HYBRIDGV_INSTRUCTION_SET;
 using Tracker = PathTracker<H51fSystem, Doubles, Pivoting::Rows>;
 using Number = std::complex<double>;
 
-constexpr double kImageScale = 1000;
 constexpr double kLoopDeviation = 0.4;
 constexpr double kDistinct = 1e-6;
 
@@ -24,7 +23,8 @@ KnownSystem randomRealSystem(Sharing sharing, test::Random& random) {
   const solvers::PointMatch& point = problem.points[0];
   solvers::RayMatch rays[kRays];
   arrange(problem.rays.data(), point, rays);
-  const Frame frame = normalisingFrame(sharing, rays, point, kImageScale);
+  Frame frame;
+  normalise(sharing, rays, point, &frame);
   const Solution truth = solutionOf(problem.truth, frame, point);
   KnownSystem system{sharing, parametersIn(frame, sharing, rays, point), {KnownSolution{}}};
   const Number unknowns[] = {truth.x, truth.y, truth.alpha, truth.beta, truth.d};
@@ -42,14 +42,21 @@ Parameters perturbed(Sharing sharing, const Parameters& parameters, double devia
   for (int j = 0; j < kRays; ++j) {
     for (ComplexNumber& q : p.direction[j]) perturb(q, deviation, random);
     for (ComplexNumber& m : p.moment[j]) perturb(m, deviation, random);
-    if (j < sharedRays(sharing)) {  // q x (0, 0, 1)
-      const ComplexNumber* q = p.direction[j];
-      p.moment[j][0] = q[1], p.moment[j][1] = {-q[0].re, -q[0].im}, p.moment[j][2] = {0, 0};
-    }
     perturb(p.image[j], deviation / 2, random), perturb(p.imageBar[j], deviation / 2, random);
   }
   perturb(p.pointImage, deviation / 2, random), perturb(p.pointImageBar, deviation / 2, random);
+  restoreSharedCentre(sharing, &p);
   return p;
+}
+
+void restoreSharedCentre(Sharing sharing, Parameters* parameters) {
+  for (int j = 0; j < sharedRays(sharing); ++j) {  // q x (0, 0, kSharedCentre)
+    const ComplexNumber* q = parameters->direction[j];
+    ComplexNumber* m = parameters->moment[j];
+    m[0] = {kSharedCentre * q[1].re, kSharedCentre * q[1].im};
+    m[1] = {-kSharedCentre * q[0].re, -kSharedCentre * q[0].im};
+    m[2] = {0, 0};
+  }
 }
 
 static bool coincide(const KnownSolution& a, const KnownSolution& b) {
@@ -61,7 +68,7 @@ static bool coincide(const KnownSolution& a, const KnownSolution& b) {
 // Tracks the solutions that are there; those whose path fails are dropped.
 static void moveWhatCanBeMoved(const Parameters& parameters, KnownSystem* system) {
   const std::size_t count = system->solutions.size();
-  const SystemPath<double> path = straightPath(system->parameters, parameters);
+  const Homotopy<double> path = straightHomotopy(system->parameters, parameters);
   std::vector<int> all(count);
   std::iota(all.begin(), all.end(), 0);
   std::vector<KnownSolution> tangents(count), moved(count);

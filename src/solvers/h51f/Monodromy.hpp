@@ -29,6 +29,9 @@ KnownSystem randomRealSystem(Sharing sharing, test::Random& random);
 // as large ones to image points; a shared centre stays where it is.
 Parameters perturbed(Sharing sharing, const Parameters& parameters, double deviation, test::Random& random);
 
+// Makes the moments of the shared rays those of rays through the shared centre.
+void restoreSharedCentre(Sharing sharing, Parameters* parameters);
+
 // Tracks the solutions to other parameters, carefully. False if a path fails or two end points coincide.
 bool moveTo(const Parameters& parameters, KnownSystem* system);
 

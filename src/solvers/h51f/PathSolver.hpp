@@ -17,7 +17,7 @@ class PathSolver {
  public:
   PathSolver(const h51f::StartSystem& start, const h51f::Parameters& target)
       : start_(start),
-        path_(h51f::straightPath(start.parameters, target)),
+        homotopy_(h51f::straightHomotopy(start.parameters, target)),
         pointImage_(scalar(target.pointImage)),
         pointImageBar_(scalar(target.pointImageBar)) {}
 
@@ -42,7 +42,7 @@ class PathSolver {
 
  private:
   static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths, kRounds = h51f::kRounds;
-  static constexpr TrackingOptions kFirstPass{1.5e-2, 9e-2, 3e-3, 0.03, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
+  static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
   static constexpr double kHopeless = 0.8;         // share of bad paths that only degenerate data have
   static constexpr double kFloatConverged = 1e-4;  // last Newton step in single precision
   static constexpr double kFloatReal = 3e-2;       // single precision solutions that are this close to real may be real
@@ -77,10 +77,10 @@ class PathSolver {
   static void narrow(const math::Polynomial<double, Degree>& from, math::Polynomial<float, Degree>& to) {
     for (int k = 0; k <= Degree; ++k) to.re[k] = static_cast<float>(from.re[k]), to.im[k] = static_cast<float>(from.im[k]);
   }
-  static void narrow(const h51f::VectorPath<double>& from, h51f::VectorPath<float>& to) {
+  static void narrow(const h51f::VectorHomotopy<double>& from, h51f::VectorHomotopy<float>& to) {
     narrow(from.plus, to.plus), narrow(from.minus, to.minus), narrow(from.third, to.third);
   }
-  static void narrow(const h51f::SystemPath<double>& from, h51f::SystemPath<float>& to) {
+  static void narrow(const h51f::Homotopy<double>& from, h51f::Homotopy<float>& to) {
     narrow(from.pointImage, to.pointImage), narrow(from.pointImageBar, to.pointImageBar);
     for (int j = 0; j < h51f::kRays; ++j) {
       narrow(from.ray[j].direction, to.ray[j].direction), narrow(from.ray[j].moment, to.ray[j].moment);
@@ -90,16 +90,16 @@ class PathSolver {
   }
 
   void firstPass(PathEnd<float, N>* ends) {
-    h51f::SystemPath<float> path;
-    narrow(path_, path);
+    h51f::Homotopy<float> homotopy;
+    narrow(homotopy_, homotopy);
     Point<float, N> tangents[kMaxPaths], reached[kMaxPaths];
-    int all[kMaxPaths];
+    int all[kMaxPaths] = {};
     float lastStep[kMaxPaths];
     for (int i = 0; i < start_.paths; ++i) all[i] = i;
-    FirstTracker::startTangents(path, start_.solutions, all, start_.paths, tangents);
-    FirstTracker::track(path, start_.solutions, tangents, all, start_.paths, kFirstPass, ends);
+    FirstTracker::startTangents(homotopy, start_.solutions, all, start_.paths, tangents);
+    FirstTracker::track(homotopy, start_.solutions, tangents, all, start_.paths, kFirstPass, ends);
     for (int i = 0; i < start_.paths; ++i) reached[i] = ends[i].point;
-    newtonSteps<H51fSystem, Floats, Pivoting::None>(path, 1, reached, all, start_.paths, 1, lastStep);
+    newtonSteps<H51fSystem, Floats, Pivoting::None>(homotopy, 1, reached, all, start_.paths, 1, lastStep);
     for (int i = 0; i < start_.paths; ++i) {
       for (int k = 0; k < N; ++k) point_[i].re[k] = reached[i].re[k], point_[i].im[k] = reached[i].im[k];
       state_[i] = ends[i].reached ? State::Single : State::Bad;
@@ -123,20 +123,21 @@ class PathSolver {
            __builtin_fabs(d.im) < tolerance * norm(d);
   }
 
-  // Where three or more rays share a centre c = (0, 0, 1), a query at c satisfies their equations: n.c + d = 0, z.c + d pi0 = 0
-  // and its conjugate.
+  // Where three or more rays share a centre c = (0, 0, kSharedCentre), a query at c satisfies their equations: n.c + d = 0, z.c +
+  // d pi0 = 0 and its conjugate.
   bool isImproper(int i, double tolerance) const {
     if (start_.sharing == h51f::Sharing::AtMostTwo) return false;
     const Scalar x = at(i, H51fSystem::X), y = at(i, H51fSystem::Y), d = at(i, H51fSystem::D), xy = x * y, one{1, 0};
     const Scalar scale = reciprocal(one + xy);
-    return norm((one - xy) * scale + d) < tolerance &&
-           norm(pointImage_ * d - twice(x) * scale * reciprocal(at(i, H51fSystem::Beta))) < tolerance &&
-           norm(pointImageBar_ * d - twice(y) * scale * reciprocal(at(i, H51fSystem::Alpha))) < tolerance;
+    const double c = h51f::kSharedCentre;
+    return norm(c * ((one - xy) * scale) + d) < tolerance &&
+           norm(pointImage_ * d - 2 * c * (x * scale * reciprocal(at(i, H51fSystem::Beta)))) < tolerance &&
+           norm(pointImageBar_ * d - 2 * c * (y * scale * reciprocal(at(i, H51fSystem::Alpha)))) < tolerance;
   }
 
   void polish(const int* indices, int count, int steps) {
     double lastStep[kMaxPaths];
-    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path_, 1, point_, indices, count, steps, lastStep);
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, steps, lastStep);
     for (int i = 0; i < count; ++i) state_[indices[i]] = lastStep[indices[i]] < kConverged ? State::Double : State::Bad;
   }
 
@@ -173,19 +174,19 @@ class PathSolver {
     DoublePoint starts[kMaxPaths], tangents[kMaxPaths];
     PathEnd<double, N> ends[kMaxPaths];
     double lastStep[kMaxPaths];
-    int all[kMaxPaths];
+    int all[kMaxPaths] = {};
     for (int i = 0; i < count; ++i) {
       all[i] = i;
       for (int k = 0; k < N; ++k)
         starts[i].re[k] = start_.solutions[bad[i]].re[k], starts[i].im[k] = start_.solutions[bad[i]].im[k];
     }
-    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path_, 0, starts, all, count, kPolishSteps, lastStep);
-    SecondTracker::startTangents(path_, starts, all, count, tangents);
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 0, starts, all, count, kPolishSteps, lastStep);
+    SecondTracker::startTangents(homotopy_, starts, all, count, tangents);
     const double care[kRounds] = {1, 0.1, 0.01};
     TrackingOptions options{1e-3, 1e-2, 1e-5, 0.01, 0.1, 1e-13, h51f::kMaxStepsSecondPass};
     options.tolerance *= care[round], options.acceptSecond *= care[round];
     options.acceptFirst *= __builtin_sqrt(care[round]);
-    SecondTracker::track(path_, starts, tangents, all, count, options, ends);
+    SecondTracker::track(homotopy_, starts, tangents, all, count, options, ends);
     int reached[kMaxPaths] = {}, countReached = 0, steps = 0;
     for (int i = 0; i < count; ++i) {
       steps += ends[i].attempts;
@@ -221,7 +222,7 @@ class PathSolver {
   static constexpr int kPolishSteps = 3;
 
   const h51f::StartSystem& start_;
-  const h51f::SystemPath<double> path_;
+  const h51f::Homotopy<double> homotopy_;
   const Scalar pointImage_, pointImageBar_;
   DoublePoint point_[kMaxPaths];
   State state_[kMaxPaths];

@@ -24,9 +24,10 @@ struct Parameters {
   ComplexNumber pointImage, pointImageBar;  // of the 3D point
 };
 
-// The number of solutions depends on how many rays share a centre. Three cases differ; the centre shared by three or four rays is
-// kept at (0, 0, 1), in the unit of its distance from the 3D point, and those rays come first.
+// The number of solutions depends on how many rays share a centre. Three cases differ. A centre shared by three or four rays is
+// kept at (0, 0, kSharedCentre) by the choice of coordinates, and those rays come first.
 enum class Sharing { AtMostTwo, Three, Four };
+constexpr double kSharedCentre = 3;
 
 // A system whose solutions are all known.
 struct StartSystem {
@@ -38,22 +39,22 @@ struct StartSystem {
 
 // The data of the equations on the straight way from one system (t = 0) to another (t = 1).
 template <class Scalar>
-struct VectorPath {  // w+ = w1 + i w2, w- = w1 - i w2, w3
+struct VectorHomotopy {  // w+ = w1 + i w2, w- = w1 - i w2, w3
   math::Polynomial<Scalar, 1> plus, minus, third;
 };
 template <class Scalar>
-struct RayPath {
-  VectorPath<Scalar> direction, moment;
+struct RayHomotopy {
+  VectorHomotopy<Scalar> direction, moment;
   math::Polynomial<Scalar, 1> image, imageBar;
   math::Polynomial<Scalar, 2> cross;  // pib pi0 - pi pib0
 };
 template <class Scalar>
-struct SystemPath {
-  RayPath<Scalar> ray[kRays];
+struct Homotopy {
+  RayHomotopy<Scalar> ray[kRays];
   math::Polynomial<Scalar, 1> pointImage, pointImageBar;
 };
 
-SystemPath<double> straightPath(const Parameters& start, const Parameters& target);
+Homotopy<double> straightHomotopy(const Parameters& start, const Parameters& target);
 
 }  // namespace h51f
 }  // namespace hybridgv

@@ -55,19 +55,21 @@ Sharing arrange(const RayMatch* rays, const PointMatch& point, RayMatch* arrange
   return sharing;
 }
 
-Frame normalisingFrame(Sharing sharing, const RayMatch* rays, const PointMatch& point, double imageScale) {
-  Frame frame;
-  frame.origin = point.point, frame.imageScale = imageScale;
-  if (sharing == Sharing::AtMostTwo) {
-    frame.length = 0;
-    for (int j = 0; j < kRays; ++j) frame.length += (rays[j].centre - point.point).norm() / kRays;
-  } else {
-    const Vector3d toCentre = rays[0].centre - point.point;
-    frame.length = toCentre.norm();
-    const Vector3d third = toCentre / frame.length, first = third.unitOrthogonal();
-    frame.turn << first.transpose(), third.cross(first).transpose(), third.transpose();
+bool normalise(Sharing sharing, const RayMatch* rays, const PointMatch& point, Frame* frame) {
+  *frame = Frame();
+  frame->origin = point.point;
+  double meanDistance = 0, meanRadius = std::hypot(point.u, point.v) / (kRays + 1);
+  for (int j = 0; j < kRays; ++j) {
+    meanDistance += rays[j].direction.cross(rays[j].centre - point.point).norm() / kRays;
+    meanRadius += std::hypot(rays[j].u, rays[j].v) / (kRays + 1);
   }
-  return frame;
+  frame->imageScale = 4 * meanRadius, frame->length = meanDistance;
+  if (sharing != Sharing::AtMostTwo) {
+    const Vector3d toCentre = rays[0].centre - point.point, third = toCentre.normalized(), first = third.unitOrthogonal();
+    frame->length = toCentre.norm() / kSharedCentre;
+    frame->turn << first.transpose(), third.cross(first).transpose(), third.transpose();
+  }
+  return frame->imageScale > 0 && frame->length > 0;
 }
 
 // The rotation Q that maximises the trace of Q^T K; about the third axis if that must stay.
@@ -101,8 +103,8 @@ Parameters parametersIn(const Frame& frame, Sharing sharing, const RayMatch* ray
   Parameters p;
   const auto image = [&frame](double u, double v) { return frame.phase * Number(u, v) / frame.imageScale; };
   for (int j = 0; j < kRays; ++j) {
-    const Vector3d centre = j < sharedRays(sharing) ? Vector3d(Vector3d::UnitZ())
-                                                    : Vector3d(frame.turn * (rays[j].centre - frame.origin) / frame.length);
+    Vector3d centre(0, 0, kSharedCentre);
+    if (j >= sharedRays(sharing)) centre = frame.turn * (rays[j].centre - frame.origin) / frame.length;
     const Vector3d direction = frame.turn * rays[j].direction;
     assign(direction, p.direction[j]), assign(direction.cross(centre), p.moment[j]);
     p.image[j] = plain(image(rays[j].u, rays[j].v)), p.imageBar[j] = plain(std::conj(number(p.image[j])));

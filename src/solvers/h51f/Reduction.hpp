@@ -10,7 +10,7 @@
 namespace hybridgv {
 namespace h51f {
 
-// How many of the first rays have the centre (0, 0, 1).
+// How many of the first rays have the centre (0, 0, kSharedCentre).
 constexpr int sharedRays(Sharing sharing) { return sharing == Sharing::AtMostTwo ? 0 : sharing == Sharing::Three ? 3 : 4; }
 
 // Copies the rays in the order in which start systems have them: those of the shared centre first, and by the angle between their
@@ -31,8 +31,10 @@ struct Frame {
   double imageScale = 1;
 };
 
-// The 3D point as origin; a shared centre at (0, 0, 1), otherwise mean distance 1 of the ray centres from the origin.
-Frame normalisingFrame(Sharing sharing, const solvers::RayMatch* rays, const solvers::PointMatch& point, double imageScale);
+// The 3D point as origin; a shared centre at (0, 0, kSharedCentre), otherwise mean distance 1 of the rays from the origin; mean
+// distance 1/4 of the image points from the principal point. Directions, moments and image points then have the spread that the
+// start systems have. False if a scale is 0.
+bool normalise(Sharing sharing, const solvers::RayMatch* rays, const solvers::PointMatch& point, Frame* frame);
 
 // Turns the rig's and the image's axes so that the sample comes close to the real parts of a start system: least squares over
 // directions and moments of the rays, and over the image points. A shared centre stays where it is.

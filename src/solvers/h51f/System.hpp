@@ -44,61 +44,116 @@ struct H51fSystem {
   enum Unknown { X, Y, Alpha, Beta, D, F, Ft };
 
   template <class Scalar>
-  using Coefficients = h51f::SystemPath<Scalar>;
+  using Homotopy = h51f::Homotopy<Scalar>;
 
-  // u(w), v(w), s(w) and their derivatives u_x = -2(w3 + x w-), v_y = -2(w3 + y w+), s_x = w- - y w3, s_y = w+ - x w3
+  // The data of the equations at some t.
   template <class V>
-  struct Forms {
-    Complex<V> u, v, s, ux, vy, sx, sy;
+  struct Vector {
+    Complex<V> plus, minus, third;
+  };
+  template <class V>
+  struct Ray {
+    Vector<V> direction, moment;
+    Complex<V> image, imageBar, dImage, dImageBar, cross;  // pi, pib, pi - pi0, pib0 - pib, pib pi0 - pi pib0
+  };
+  template <class V>
+  struct Data {
+    Ray<V> ray[h51f::kRays];
   };
 
   template <class V>
-  static HYBRIDGV_INLINE Forms<V> forms(const Complex<V>& plus, const Complex<V>& minus, const Complex<V>& third,
-                                        const Complex<V>& x, const Complex<V>& y) {
-    const Complex<V> a = third + x * minus, c = third + y * plus;
-    Forms<V> f;
-    f.sx = minus - y * third, f.sy = plus - x * third;
-    f.u = plus - x * (third + a), f.v = minus - y * (third + c), f.s = a + y * f.sy;
-    f.ux = -twice(a), f.vy = -twice(c);
-    return f;
+  static HYBRIDGV_INLINE Vector<V> vectorAt(const h51f::VectorHomotopy<Real<V>>& w, V t) {
+    return {valueAt(w.plus, t), valueAt(w.minus, t), valueAt(w.third, t)};
+  }
+  template <class V>
+  static HYBRIDGV_INLINE void dataAt(const Homotopy<Real<V>>& homotopy, V t, Data<V>& data) {
+    const Complex<V> pointImage = valueAt(homotopy.pointImage, t), pointImageBar = valueAt(homotopy.pointImageBar, t);
+    for (int j = 0; j < h51f::kRays; ++j) {
+      const h51f::RayHomotopy<Real<V>>& from = homotopy.ray[j];
+      Ray<V>& to = data.ray[j];
+      to.direction = vectorAt(from.direction, t), to.moment = vectorAt(from.moment, t);
+      to.image = valueAt(from.image, t), to.imageBar = valueAt(from.imageBar, t);
+      to.dImage = to.image - pointImage, to.dImageBar = pointImageBar - to.imageBar;
+      to.cross = valueAt(from.cross, t);
+    }
   }
 
+  // [dF/dx | F], and dF/dt if derivative is true; the equations are divided by 2.
   template <bool derivative, class V>
-  static HYBRIDGV_INLINE void evaluate(const Coefficients<Real<V>>& coefficients, V t, const Complex<V> (&x)[kUnknowns],
+  static HYBRIDGV_INLINE void evaluate(const Homotopy<Real<V>>& homotopy, V t, const Data<V>& data,
+                                       const Complex<V> (&z)[kUnknowns],
                                        Complex<V> (&rows)[kUnknowns][kUnknowns + 1 + derivative]) {
-    const Complex<V> image0 = valueAt(coefficients.pointImage, t), imageBar0 = valueAt(coefficients.pointImageBar, t);
-    const Complex<V> iAlphaD = timesI(x[Alpha] * x[D]), iBetaD = timesI(x[Beta] * x[D]), iAlphaBetaD = iAlphaD * x[Beta];
+    const V half = broadcast<V>(Real<V>(0.5));
+    const Complex<V> x = z[X], y = z[Y], alpha = half * z[Alpha], beta = half * z[Beta];
+    const Complex<V> iAlphaD = timesI(alpha * z[D]), iBetaD = timesI(beta * z[D]), iAlphaBetaD = iAlphaD * z[Beta];
     for (int j = 0; j < h51f::kRays; ++j) {
-      const h51f::RayPath<Real<V>>& ray = coefficients.ray[j];
-      const Complex<V> image = valueAt(ray.image, t), imageBar = valueAt(ray.imageBar, t);
-      const Forms<V> m =
-          forms(valueAt(ray.moment.plus, t), valueAt(ray.moment.minus, t), valueAt(ray.moment.third, t), x[X], x[Y]);
-      const Forms<V> q =
-          forms(valueAt(ray.direction.plus, t), valueAt(ray.direction.minus, t), valueAt(ray.direction.third, t), x[X], x[Y]);
-      // the coefficients of u(m), v(m), u(q), v(q), s(q)
-      const Complex<V> kum = x[Alpha] * imageBar, kvm = x[Beta] * image, kuq = iAlphaD * (imageBar0 - imageBar),
-                       kvq = iBetaD * (image - image0), ksq = iAlphaBetaD * valueAt(ray.cross, t);
-      const Complex<V> um = kum * m.u, vm = kvm * m.v, uq = kuq * q.u, vq = kvq * q.v, sq = ksq * q.s;
       Complex<V>(&row)[kUnknowns + 1 + derivative] = rows[j];
-      row[X] = twice(m.sx) + kum * m.ux + kuq * q.ux + ksq * q.sx;
-      row[Y] = twice(m.sy) + kvm * m.vy + kvq * q.vy + ksq * q.sy;
-      row[Alpha] = um + uq + sq;
-      row[Beta] = vm + vq + sq;
-      row[D] = uq + vq + sq;
-      row[F] = twice(m.s) + um + vm + row[D];
-      if constexpr (derivative) {
-        const Forms<V> dm = forms(derivativeAt(ray.moment.plus, t), derivativeAt(ray.moment.minus, t),
-                                  derivativeAt(ray.moment.third, t), x[X], x[Y]);
-        const Forms<V> dq = forms(derivativeAt(ray.direction.plus, t), derivativeAt(ray.direction.minus, t),
-                                  derivativeAt(ray.direction.third, t), x[X], x[Y]);
-        const Complex<V> dImage = derivativeAt(ray.image, t), dImageBar = derivativeAt(ray.imageBar, t);
-        const Complex<V> dImage0 = derivativeAt(coefficients.pointImage, t),
-                         dImageBar0 = derivativeAt(coefficients.pointImageBar, t);
-        row[Ft] = twice(dm.s) + kum * dm.u + kvm * dm.v + kuq * dq.u + kvq * dq.v + ksq * dq.s + x[Alpha] * (dImageBar * m.u) +
-                  x[Beta] * (dImage * m.v) + iAlphaD * ((dImageBar0 - dImageBar) * q.u) + iBetaD * ((dImage - dImage0) * q.v) +
-                  iAlphaBetaD * (derivativeAt(ray.cross, t) * q.s);
+      const Ray<V>& ray = data.ray[j];
+      Complex<V> dx, dy, value, dt;
+      // 2 s(m) + alpha pib u(m) + beta pi v(m)
+      {
+        const Vector<V>& m = ray.moment;
+        const Complex<V> ku = alpha * ray.imageBar, kv = beta * ray.image;
+        const Complex<V> a = addProduct(m.third, x, m.minus), u = subtractProduct(m.plus, x, m.third + a);
+        const Complex<V> c = addProduct(m.third, y, m.plus), v = subtractProduct(m.minus, y, m.third + c);
+        const Complex<V> sx = subtractProduct(m.minus, y, m.third), sy = subtractProduct(m.plus, x, m.third);
+        dx = subtractProduct(sx, twice(ku), a);
+        dy = subtractProduct(sy, twice(kv), c);
+        row[Alpha] = ku * u;
+        row[Beta] = kv * v;
+        value = addProduct(a, y, sy) + row[Alpha] + row[Beta];
+        if constexpr (derivative) {
+          dt = addProduct(addLinear(homotopy.ray[j].moment, x, y, ku, kv), alpha * slope<V>(homotopy.ray[j].imageBar), u);
+          dt = addProduct(dt, beta * slope<V>(homotopy.ray[j].image), v);
+        }
+      }
+      // i alpha d (pib0 - pib) u(q) - i beta d (pi0 - pi) v(q) + i alpha beta d (pib pi0 - pi pib0) s(q)
+      {
+        const Vector<V>& q = ray.direction;
+        const Complex<V> ku = iAlphaD * ray.dImageBar, kv = iBetaD * ray.dImage, ks = iAlphaBetaD * ray.cross;
+        const Complex<V> a = addProduct(q.third, x, q.minus), u = subtractProduct(q.plus, x, q.third + a);
+        const Complex<V> c = addProduct(q.third, y, q.plus), v = subtractProduct(q.minus, y, q.third + c);
+        const Complex<V> sx = subtractProduct(q.minus, y, q.third), sy = subtractProduct(q.plus, x, q.third);
+        const Complex<V> s = addProduct(a, y, sy);
+        row[X] = addProduct(subtractProduct(dx, twice(ku), a), ks, sx);
+        row[Y] = addProduct(subtractProduct(dy, twice(kv), c), ks, sy);
+        const Complex<V> tu = ku * u, tv = kv * v, ts = ks * s, tus = tu + ts;
+        row[Alpha] = row[Alpha] + tus;
+        row[Beta] = row[Beta] + tv + ts;
+        row[D] = tus + tv;
+        row[F] = value + row[D];
+        if constexpr (derivative) {
+          const Vector<V> slopes = slope<V>(homotopy.ray[j].direction);
+          const Complex<V> slopeA = addProduct(slopes.third, x, slopes.minus);
+          dt = addProduct(dt, ku, subtractProduct(slopes.plus, x, slopes.third + slopeA));
+          dt = addProduct(dt, kv, subtractProduct(slopes.minus, y, slopes.third + addProduct(slopes.third, y, slopes.plus)));
+          dt = addProduct(dt, ks, addProduct(slopeA, y, subtractProduct(slopes.plus, x, slopes.third)));
+          dt = addProduct(dt, iAlphaD * (slope<V>(homotopy.pointImageBar) - slope<V>(homotopy.ray[j].imageBar)), u);
+          dt = addProduct(dt, iBetaD * (slope<V>(homotopy.ray[j].image) - slope<V>(homotopy.pointImage)), v);
+          row[Ft] = addProduct(dt, iAlphaBetaD * derivativeAt(homotopy.ray[j].cross, t), s);
+        }
       }
     }
+  }
+
+  // s(w') + ku u(w') + kv v(w') for the slope w' of w
+  template <class V>
+  static HYBRIDGV_INLINE Complex<V> addLinear(const h51f::VectorHomotopy<Real<V>>& w, const Complex<V>& x, const Complex<V>& y,
+                                              const Complex<V>& ku, const Complex<V>& kv) {
+    const Vector<V> slopes = slope<V>(w);
+    const Complex<V> a = addProduct(slopes.third, x, slopes.minus), c = addProduct(slopes.third, y, slopes.plus);
+    Complex<V> sum = addProduct(a, y, subtractProduct(slopes.plus, x, slopes.third));
+    sum = addProduct(sum, ku, subtractProduct(slopes.plus, x, slopes.third + a));
+    return addProduct(sum, kv, subtractProduct(slopes.minus, y, slopes.third + c));
+  }
+
+  template <class V>
+  static HYBRIDGV_INLINE Complex<V> slope(const math::Polynomial<Real<V>, 1>& p) {
+    return {broadcast<V>(p.re[1]), broadcast<V>(p.im[1])};
+  }
+  template <class V>
+  static HYBRIDGV_INLINE Vector<V> slope(const h51f::VectorHomotopy<Real<V>>& w) {
+    return {slope<V>(w.plus), slope<V>(w.minus), slope<V>(w.third)};
   }
 };
 

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "MinimalProblem.hpp"
+#include "H51fScenes.hpp"
 #include "solvers/h51f/Monodromy.hpp"
 
 namespace hybridgv {
@@ -19,44 +19,19 @@ namespace {
 
 using namespace HYBRIDGV_INSTRUCTION_SET;
 
-constexpr double kCandidateDeviation = 0.25;
+constexpr double kCandidateDeviation = 0.3;
 constexpr int kTrainingSamples = 150, kIdleLoops = 10;
 
 struct Sample {
   solvers::RayMatch rays[kRays];
   solvers::PointMatch point;
-  double imageScale;
 };
 
 Sample makeSample(Sharing sharing, const test::MinimalProblem& problem) {
   Sample sample;
   sample.point = problem.points[0];
   if (arrange(problem.rays.data(), sample.point, sample.rays) != sharing) std::abort();
-  sample.imageScale = std::max(std::abs(sample.point.u), std::abs(sample.point.v));
-  for (const solvers::RayMatch& ray : problem.rays)
-    sample.imageScale = std::max({sample.imageScale, std::abs(ray.u), std::abs(ray.v)});
   return sample;
-}
-
-// A rig of the given half size and points at distance 5 .. 15.
-test::MinimalProblem rigProblem(const std::vector<int>& raysPerCamera, double halfSize, test::Random& random) {
-  test::MinimalProblem problem;
-  problem.truth.rotation = random.rotation();
-  problem.truth.focalLength = random.uniform(500, 2000);
-  problem.truth.position = random.vector(-3, 3);
-  const auto visiblePoint = [&]() -> Eigen::Vector3d {
-    const double u = random.uniform(-500, 500), v = random.uniform(-500, 500), depth = random.uniform(5, 15);
-    return problem.truth.position +
-           depth * (problem.truth.rotation * Eigen::Vector3d(u / problem.truth.focalLength, v / problem.truth.focalLength, 1));
-  };
-  int camera = 0;
-  for (int count : raysPerCamera) {
-    const Eigen::Vector3d centre = random.vector(-halfSize, halfSize);
-    for (int i = 0; i < count; ++i) problem.rays.push_back(test::makeRayMatch(problem.truth, visiblePoint(), centre, camera));
-    ++camera;
-  }
-  problem.points.push_back(test::makePointMatch(problem.truth, visiblePoint()));
-  return problem;
 }
 
 std::vector<Sample> trainingSamples(Sharing sharing, test::Random& random) {
@@ -66,8 +41,8 @@ std::vector<Sample> trainingSamples(Sharing sharing, test::Random& random) {
   std::vector<Sample> samples;
   for (int i = 0; i < kTrainingSamples; ++i) {
     const std::vector<int>& pattern = patterns[static_cast<std::size_t>(i / 3) % patterns.size()];
-    samples.push_back(
-        makeSample(sharing, i % 3 < 2 ? test::makeMinimalProblem(random, pattern, 1) : rigProblem(pattern, 0.5, random)));
+    samples.push_back(makeSample(
+        sharing, i % 3 < 2 ? test::makeMinimalProblem(random, pattern, 1) : test::makeRigProblem(random, pattern, 0.5)));
   }
   return samples;
 }
@@ -89,7 +64,8 @@ std::vector<double> meanSteps(const KnownSystem& system, const std::vector<Sampl
   const StartSystem start{system.sharing, paths, system.parameters, solutions.data()};
   std::vector<double> steps(solutions.size());
   for (const Sample& sample : samples) {
-    Frame frame = normalisingFrame(system.sharing, sample.rays, sample.point, sample.imageScale);
+    Frame frame;
+    normalise(system.sharing, sample.rays, sample.point, &frame);
     alignWith(start, sample.rays, sample.point, &frame);
     Parameters target = parametersIn(frame, system.sharing, sample.rays, sample.point);
     scaleRaysLike(system.parameters, &target);
@@ -106,7 +82,7 @@ double meanOf(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-void roundToTable(Parameters& parameters) {
+void roundToTable(Sharing sharing, Parameters& parameters) {
   const auto round = [](ComplexNumber& a) { a.re = std::round(a.re * 1e5) / 1e5, a.im = std::round(a.im * 1e5) / 1e5; };
   for (int j = 0; j < kRays; ++j) {
     for (ComplexNumber& a : parameters.direction[j]) round(a);
@@ -114,13 +90,14 @@ void roundToTable(Parameters& parameters) {
     round(parameters.image[j]), round(parameters.imageBar[j]);
   }
   round(parameters.pointImage), round(parameters.pointImageBar);
+  restoreSharedCentre(sharing, &parameters);
 }
 
 // Keeps the better of the two systems.
 bool improve(const KnownSystem& system, Parameters parameters, const std::vector<Sample>& samples, double* best,
              KnownSystem* chosen) {
   KnownSystem candidate = system;
-  roundToTable(parameters);
+  roundToTable(system.sharing, parameters);
   if (!moveTo(parameters, &candidate)) return false;
   const double mean = meanOf(meanSteps(candidate, samples));
   if (!(mean < *best)) return false;

@@ -15,14 +15,8 @@ using Eigen::Vector3d;
 using solvers::PointMatch;
 using solvers::RayMatch;
 
-// Distance of the image points from the images of the rays, relative to the largest image coordinate.
+// Distance of the image points from the images of the rays, relative to the image scale.
 constexpr double kLargestResidual = 1e-7;
-
-static double largestCoordinate(const RayMatch* rays, const PointMatch& point) {
-  double largest = std::max(std::abs(point.u), std::abs(point.v));
-  for (int j = 0; j < kRays; ++j) largest = std::max({largest, std::abs(rays[j].u), std::abs(rays[j].v)});
-  return largest;
-}
 
 // Is the ray seen at its image point, in front of both cameras?
 static bool agrees(const FocalPose& pose, const RayMatch& ray, double imageScale) {
@@ -42,11 +36,10 @@ static Solution solutionAt(const math::Point<double, kUnknowns>& p) {
 int solve(math::SimdLevel level, Effort effort, const RayMatch* rays, const PointMatch& point, FocalPose* solutions,
           EndPoints* ends) {
   *ends = EndPoints();
-  const double imageScale = largestCoordinate(rays, point);
   RayMatch arranged[kRays];
   const Sharing sharing = arrange(rays, point, arranged);
-  Frame frame = normalisingFrame(sharing, arranged, point, imageScale);
-  if (!(imageScale > 0) || !(frame.length > 0)) return 0;
+  Frame frame;
+  if (!normalise(sharing, arranged, point, &frame)) return 0;
   const StartSystem& start = startSystem(sharing);
   alignWith(start, arranged, point, &frame);
   Parameters target = parametersIn(frame, sharing, arranged, point);
@@ -55,7 +48,7 @@ int solve(math::SimdLevel level, Effort effort, const RayMatch* rays, const Poin
   int count = 0;
   for (int i = 0; i < ends->count; ++i) {
     const FocalPose pose = poseOf(solutionAt(ends->point[i]), frame, point);
-    if (std::all_of(rays, rays + kRays, [&](const RayMatch& ray) { return agrees(pose, ray, imageScale); }))
+    if (std::all_of(rays, rays + kRays, [&](const RayMatch& ray) { return agrees(pose, ray, frame.imageScale); }))
       solutions[count++] = pose;
   }
   return count;

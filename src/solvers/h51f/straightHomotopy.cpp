@@ -23,21 +23,21 @@ static math::Polynomial<double, 1> line(const ComplexNumber& start, const Comple
   return line(number(start), number(end));
 }
 
-static VectorPath<double> line(const ComplexNumber (&a)[3], const ComplexNumber (&b)[3]) {
+static VectorHomotopy<double> line(const ComplexNumber (&a)[3], const ComplexNumber (&b)[3]) {
   const Number i(0, 1);
   const auto plus = [i](const ComplexNumber(&w)[3]) { return number(w[0]) + i * number(w[1]); };
   const auto minus = [i](const ComplexNumber(&w)[3]) { return number(w[0]) - i * number(w[1]); };
   return {line(plus(a), plus(b)), line(minus(a), minus(b)), line(a[2], b[2])};
 }
 
-SystemPath<double> straightPath(const Parameters& start, const Parameters& target) {
-  SystemPath<double> path;
+Homotopy<double> straightHomotopy(const Parameters& start, const Parameters& target) {
+  Homotopy<double> path;
   path.pointImage = line(start.pointImage, target.pointImage);
   path.pointImageBar = line(start.pointImageBar, target.pointImageBar);
   const Number pi0 = number(start.pointImage), pib0 = number(start.pointImageBar);
   const Number dPi0 = number(target.pointImage) - pi0, dPib0 = number(target.pointImageBar) - pib0;
   for (int j = 0; j < kRays; ++j) {
-    RayPath<double>& ray = path.ray[j];
+    RayHomotopy<double>& ray = path.ray[j];
     ray.direction = line(start.direction[j], target.direction[j]);
     ray.moment = line(start.moment[j], target.moment[j]);
     ray.image = line(start.image[j], target.image[j]), ray.imageBar = line(start.imageBar[j], target.imageBar[j]);
