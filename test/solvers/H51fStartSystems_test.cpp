@@ -21,10 +21,12 @@ constexpr int N = h51f::kUnknowns;
 using Rows = Complex<Doubles>[N][N + 2];
 
 // [J | F | F_t] at a point given by complex numbers.
-void evaluateAt(const h51f::Homotopy<double>& path, double t, const Number (&point)[N], Rows& rows) {
+void evaluateAt(const h51f::Homotopy<double>& homotopy, double t, const Number (&point)[N], Rows& rows) {
   Complex<Doubles> x[N];
   for (int k = 0; k < N; ++k) x[k] = {broadcast<Doubles>(point[k].real()), broadcast<Doubles>(point[k].imag())};
-  H51fSystem::evaluate<true>(path, broadcast<Doubles>(t), x, rows);
+  H51fSystem::Data<Doubles> data;
+  H51fSystem::dataAt(homotopy, broadcast<Doubles>(t), data);
+  H51fSystem::evaluate<true>(homotopy, broadcast<Doubles>(t), data, x, rows);
 }
 Number entry(const Rows& rows, int j, int k) { return {rows[j][k].re[0], rows[j][k].im[0]}; }
 
@@ -49,12 +51,12 @@ TEST(H51fSystem, HasTheDerivativesOfItsValues) {
       return perturbed(Sharing::AtMostTwo, h51f::randomRealSystem(Sharing::AtMostTwo, random).parameters, 0.3, random);
     };
     const h51f::Parameters start = randomParameters();
-    const h51f::Homotopy<double> path = h51f::straightHomotopy(start, randomParameters());
+    const h51f::Homotopy<double> homotopy = h51f::straightHomotopy(start, randomParameters());
     const double t = random.uniform();
     Number point[N];
     for (Number& x : point) x = {random.normal(), random.normal()};
     Rows rows;
-    evaluateAt(path, t, point, rows);
+    evaluateAt(homotopy, t, point, rows);
     for (int k = 0; k <= N; ++k) {  // the last one: t
       Number up[N], down[N];
       for (int l = 0; l < N; ++l) up[l] = down[l] = point[l];
@@ -64,7 +66,7 @@ TEST(H51fSystem, HasTheDerivativesOfItsValues) {
       else if (k < N)
         up[k] *= 1 + kStep, down[k] *= 1 - kStep;
       Rows rowsUp, rowsDown;
-      evaluateAt(path, t + dt, up, rowsUp), evaluateAt(path, t - dt, down, rowsDown);
+      evaluateAt(homotopy, t + dt, up, rowsUp), evaluateAt(homotopy, t - dt, down, rowsDown);
       for (int j = 0; j < N; ++j) {
         const Number derivative = entry(rows, j, k < N ? k : N + 1);
         const Number expected = (entry(rowsUp, j, N) - entry(rowsDown, j, N)) / (2 * kStep);
