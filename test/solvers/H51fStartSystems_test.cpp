@@ -109,10 +109,10 @@ KnownSystem tableSystem(Sharing sharing, double* largestStep) {
   }
   std::vector<double> steps(all.size());
   newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(h51f::straightHomotopy(table.parameters, table.parameters), 0.0,
-                                                   system.solutions.data(), all.data(), table.paths, 1, steps.data());
+                                                   system.solutions.data(), all.data(), table.paths, 1, 0.0, steps.data());
   *largestStep = *std::max_element(steps.begin(), steps.end());
   newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(h51f::straightHomotopy(table.parameters, table.parameters), 0.0,
-                                                   system.solutions.data(), all.data(), table.paths, 2, steps.data());
+                                                   system.solutions.data(), all.data(), table.paths, 2, 0.0, steps.data());
   return system;
 }
 

@@ -241,10 +241,11 @@ class PathTracker {
   unsigned active_ = 0;
 };
 
-// Newton steps at t on points[indices[..]]; the last step's size to lastStep[indices[..]].
+// Newton steps at t on points[indices[..]]: until they are smaller than `enough` (relative), at most maxSteps. The last step's size
+// to lastStep[indices[..]].
 template <class System, class V, Pivoting pivoting, class Homotopy>
 void newtonSteps(const Homotopy& homotopy, Real<V> t, Point<Real<V>, System::kUnknowns>* points, const int* indices, int count,
-                 int steps, Real<V>* lastStep) {
+                 int maxSteps, Real<V> enough, Real<V>* lastStep) {
   constexpr int N = System::kUnknowns, W = LaneTraits<V>::kWidth;
   for (int first = 0; first < count; first += W) {
     Complex<V> x[N], rows[N][N + 1];
@@ -252,10 +253,12 @@ void newtonSteps(const Homotopy& homotopy, Real<V> t, Point<Real<V>, System::kUn
     loadLanes(points, indices + first, count - first, x);
     System::dataAt(homotopy, broadcast<V>(t), data);
     V size = V{};
-    for (int step = 0; step < steps; ++step) {
+    Mask<V> converged = Mask<V>{};
+    for (int step = 0; step < maxSteps && bits(~converged); ++step) {
       System::template evaluate<false>(homotopy, broadcast<V>(t), data, x, rows);
       solveInPlace<pivoting>(rows);
       size = newtonUpdate<System>(rows, x);
+      converged = size < enough * enough;
     }
     size = squareRoot(size);
     for (int lane = 0; lane < W && first + lane < count; ++lane) {

@@ -79,7 +79,7 @@ static void moveWhatCanBeMoved(const Parameters& parameters, KnownSystem* system
   Tracker::track(path, system->solutions.data(), tangents.data(), all.data(), n, {1e-3, 1e-2, 1e-5, 0.01, 0.1, 1e-13, 3000},
                  ends.data());
   for (std::size_t i = 0; i < count; ++i) moved[i] = ends[i].point;
-  newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path, 1.0, moved.data(), all.data(), n, 5, lastStep.data());
+  newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path, 1.0, moved.data(), all.data(), n, 5, 0.0, lastStep.data());
   system->parameters = parameters;
   system->solutions.clear();
   for (std::size_t i = 0; i < count; ++i)

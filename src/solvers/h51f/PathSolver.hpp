@@ -2,7 +2,8 @@
 //
 //   1  all paths in single precision; end points that may be real, doubtful or double are polished in double precision
 //   2  paths that failed, did not converge, ended on an improper solution or on the same one as another path are tracked again in
-//      double precision with pivoting and small steps, in up to three rounds, each more careful
+//      double precision with pivoting and small steps. That may reveal yet another path on a wrong end: where solutions are close
+//      together, several paths may have taken each other's ends. Hence a number of rounds, the first three more careful each
 //
 // Compiled once per instruction set, see math/simd/Lanes.hpp.
 #pragma once
@@ -36,12 +37,15 @@ class PathSolver {
     sortOut();
     if (countOf(State::Bad) > kHopeless * start_.paths) return;
     if (effort == h51f::Effort::Complete)
-      for (int round = 0; round < kRounds && countOf(State::Bad) > 0; ++round) ends->steps += secondPass(round);
+      for (int round = 0, spent = 0; round < h51f::kRounds && countOf(State::Bad) > 0 && spent < h51f::kMaxStepsPerRound; ++round) {
+        const int steps = secondPass(round);
+        spent += steps, ends->steps += steps;
+      }
     collect(ends);
   }
 
  private:
-  static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths, kRounds = h51f::kRounds;
+  static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths;
   static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
   static constexpr double kHopeless = 0.8;         // share of bad paths that only degenerate data have
   static constexpr double kFloatConverged = 1e-4;  // last Newton step in single precision
@@ -99,7 +103,7 @@ class PathSolver {
     FirstTracker::startTangents(homotopy, start_.solutions, all, start_.paths, tangents);
     FirstTracker::track(homotopy, start_.solutions, tangents, all, start_.paths, kFirstPass, ends);
     for (int i = 0; i < start_.paths; ++i) reached[i] = ends[i].point;
-    newtonSteps<H51fSystem, Floats, Pivoting::None>(homotopy, 1, reached, all, start_.paths, 1, lastStep);
+    newtonSteps<H51fSystem, Floats, Pivoting::None>(homotopy, 1, reached, all, start_.paths, 1, 0.0f, lastStep);
     for (int i = 0; i < start_.paths; ++i) {
       for (int k = 0; k < N; ++k) point_[i].re[k] = reached[i].re[k], point_[i].im[k] = reached[i].im[k];
       state_[i] = ends[i].reached ? State::Single : State::Bad;
@@ -135,9 +139,9 @@ class PathSolver {
            norm(pointImageBar_ * d - 2 * c * (y * scale * reciprocal(at(i, H51fSystem::Alpha)))) < tolerance;
   }
 
-  void polish(const int* indices, int count, int steps) {
+  void polish(const int* indices, int count) {
     double lastStep[kMaxPaths];
-    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, steps, lastStep);
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, kPolishSteps, kConverged, lastStep);
     for (int i = 0; i < count; ++i) state_[indices[i]] = lastStep[indices[i]] < kConverged ? State::Double : State::Bad;
   }
 
@@ -151,7 +155,7 @@ class PathSolver {
       for (int j = 0; j < start_.paths && decided; ++j) decided = j == i || isBad(j) || !coincide(i, j, kFloatDistinct);
       if (!decided) undecided[count++] = i;
     }
-    polish(undecided, count, kPolishSteps);
+    polish(undecided, count);
     for (int i = 0; i < start_.paths; ++i)
       if (state_[i] == State::Double && isImproper(i, kImproper)) state_[i] = State::Bad;
     bool twin[kMaxPaths] = {};
@@ -180,12 +184,12 @@ class PathSolver {
       for (int k = 0; k < N; ++k)
         starts[i].re[k] = start_.solutions[bad[i]].re[k], starts[i].im[k] = start_.solutions[bad[i]].im[k];
     }
-    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 0, starts, all, count, kPolishSteps, lastStep);
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 0, starts, all, count, kPolishSteps, kConverged, lastStep);
     SecondTracker::startTangents(homotopy_, starts, all, count, tangents);
-    const double care[kRounds] = {1, 0.1, 0.01};
-    TrackingOptions options{1e-3, 1e-2, 1e-5, 0.01, 0.1, 1e-13, h51f::kMaxStepsSecondPass};
-    options.tolerance *= care[round], options.acceptSecond *= care[round];
-    options.acceptFirst *= __builtin_sqrt(care[round]);
+    const double tolerance = round == 0 ? 4e-3 : round == 1 ? 4e-4 : 4e-5, acceptSecond = 0.05 * tolerance;
+    const int share = h51f::kMaxStepsPerRound / count;
+    const TrackingOptions options{tolerance, 5 * tolerance, acceptSecond, 0.02, 0.2, 1e-12,
+                                  share < h51f::kMaxStepsSecondPass ? share : h51f::kMaxStepsSecondPass};
     SecondTracker::track(homotopy_, starts, tangents, all, count, options, ends);
     int reached[kMaxPaths] = {}, countReached = 0, steps = 0;
     for (int i = 0; i < count; ++i) {
@@ -194,7 +198,7 @@ class PathSolver {
       state_[bad[i]] = State::AtInfinity;
       if (ends[i].reached) reached[countReached++] = bad[i];
     }
-    polish(reached, countReached, 12);
+    polish(reached, countReached);
     sortOut();
     return steps;
   }
@@ -219,7 +223,7 @@ class PathSolver {
     state_[i] = State::Double;
   }
 
-  static constexpr int kPolishSteps = 3;
+  static constexpr int kPolishSteps = 6;
 
   const h51f::StartSystem& start_;
   const h51f::Homotopy<double> homotopy_;

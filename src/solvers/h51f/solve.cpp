@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 using solvers::PointMatch;
 using solvers::RayMatch;
 
-// Distance of the image points from the images of the rays, relative to the image scale.
-constexpr double kLargestResidual = 1e-7;
+// Relative to the image scale: the distance of image points from the images of their rays, and the focal length, below which image
+// points at the principal point make spurious solutions.
+constexpr double kLargestResidual = 1e-7, kSmallestFocalLength = 1e-4;
 
 // Is the ray seen at its image point, in front of both cameras?
 static bool agrees(const FocalPose& pose, const RayMatch& ray, double imageScale) {
@@ -48,6 +49,7 @@ int solve(math::SimdLevel level, Effort effort, const RayMatch* rays, const Poin
   int count = 0;
   for (int i = 0; i < ends->count; ++i) {
     const FocalPose pose = poseOf(solutionAt(ends->point[i]), frame, point);
+    if (!(pose.focalLength > kSmallestFocalLength * frame.imageScale)) continue;
     if (std::all_of(rays, rays + kRays, [&](const RayMatch& ray) { return agrees(pose, ray, frame.imageScale); }))
       solutions[count++] = pose;
   }

@@ -20,8 +20,10 @@ struct EndPoints {
   bool complete() const { return accepted == paths; }
 };
 
-constexpr int kMaxStepsFirstPass = 300, kMaxStepsSecondPass = 600, kRounds = 3;  // per path
-constexpr int kMaxSteps = kMaxPaths * (kMaxStepsFirstPass + kRounds * kMaxStepsSecondPass);
+// Bounds: per path in the first pass, per path and for all paths together in a round of the second pass. No round begins once as
+// many steps as one round may take have been spent.
+constexpr int kMaxStepsFirstPass = 300, kMaxStepsSecondPass = 600, kMaxStepsPerRound = 8000, kRounds = 8;
+constexpr int kMaxSteps = kMaxPaths * kMaxStepsFirstPass + 2 * kMaxStepsPerRound;
 
 enum class Effort {
   OnePass,   // single precision tracking only: the fastest per solution found, misses 1 % of the solutions
