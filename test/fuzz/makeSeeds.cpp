@@ -85,5 +85,6 @@ int main(int argc, char** argv) {
   writeSamples(folder / "h32f", {{1, 1, 1}, {2, 1}, {3}}, 2);
   writeSamples(folder / "h51f", {{1, 1, 1, 1, 1}, {2, 1, 1, 1}, {2, 2, 1}, {3, 1, 1}, {3, 2}, {4, 1}, {5}}, 1);
   writeSamples(folder / "sixpt_onefocal", {{6}, {6}}, 0);
+  writeSamples(folder / "hybrid_ransac", {{2, 2, 2}, {6}}, 8);
   writeModels(folder);
 }

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Fuzzes every solver and every file reader, one after the other: sh test/fuzz/run.sh SECONDS [NAME ...]
+# Fuzzes every solver, the hybrid RANSAC and every file reader, one after the other: sh test/fuzz/run.sh SECONDS [NAME ...]
 #
 # Starts from the inputs in test/fuzz/corpus and from what earlier runs found (build/fuzz/corpus). An input that breaks a promise,
-# or takes more than 10 seconds, is left in build/fuzz/faults; to see the fault again: build/fuzz/test/fuzz/NAME_fuzzer FILE.
+# or takes more than 30 seconds, is left in build/fuzz/faults; to see the fault again: build/fuzz/test/fuzz/NAME_fuzzer FILE.
 # Exit status 1 if there was one.
 set -e
 seconds=${1:?usage: run.sh SECONDS [NAME ...]}
@@ -12,7 +12,7 @@ sh .ci/install_packages.sh clang-14 cmake ninja-build libeigen3-dev
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBUILD_SHARED_LIBS=OFF \
   -DHYBRIDGV_BUILD_FUZZERS=ON -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF -DHYBRIDGV_BUILD_EXAMPLES=OFF >&2
 cmake --build build/fuzz >&2
-[ $# -gt 0 ] || set -- p4pf p35pf h13f h32f h51f sixpt_onefocal colmap_text colmap_binary bundler nvm problem
+[ $# -gt 0 ] || set -- p4pf p35pf h13f h32f h51f sixpt_onefocal hybrid_ransac colmap_text colmap_binary bundler nvm problem
 
 status=0
 mkdir -p build/fuzz/faults
@@ -22,7 +22,7 @@ for name; do
   mkdir -p "$corpus"
   result=clean
   # Not all of them use the words of the dictionary, which is no harm.
-  build/fuzz/test/fuzz/"$name"_fuzzer -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=256 \
+  build/fuzz/test/fuzz/"$name"_fuzzer -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -malloc_limit_mb=256 \
     -max_len=4096 -dict=test/fuzz/readers.dict -print_final_stats=1 -artifact_prefix=build/fuzz/faults/"$name"- \
     "$corpus" test/fuzz/corpus/"$name" 2>"$log" || { result="FAULT, see $log"; status=1; }
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
