@@ -70,8 +70,8 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       sampler_(makeSampler(adapter, arrays_, rayIndices_, pointIndices_, options.sampling)),
       choice_(makeStrategies(options.solvers, sampler_)),
       scorer_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
-      optimizer_(scorer_, options.minFocalLength, options.maxFocalLength),
       chance_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
+      optimizer_(scorer_, chance_, options.minFocalLength, options.maxFocalLength),
       workers_(options.threads),
       solutions_(workers_.size()) {}
 

@@ -88,8 +88,8 @@ class HybridSearch {
   Sampler sampler_;
   SolverChoice choice_;
   PoseScorer scorer_;
-  LocalOptimizer optimizer_;
   ChanceModel chance_;
+  LocalOptimizer optimizer_;
   WorkerPool workers_;
   std::vector<Solutions> solutions_;  // one scratch buffer per worker
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hybridgv {
 namespace robust {
@@ -9,33 +10,63 @@ namespace {
 
 // Median of the square of one and of the sum of the squares of two standard normal variables.
 constexpr double kMedianOne = 0.4549364231195728, kMedianTwo = 1.3862943611198906;
-// Errors of exact data are rounding: a scale below this share of the threshold is not measured.
-constexpr double kLeastNoise = 1e-6;
-// A few errors do not tell their scale: with less than this number, part of its square is that of the threshold / 2.5.
+constexpr double kPi = 3.14159265358979323846;
+// Errors of exact data are rounding: a deviation below this share of the threshold is not measured.
+constexpr double kLeastDeviation = 1e-6;
+// A few errors do not tell their deviation. With less than this number, part of its square is that of what is expected: that of
+// the other type, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
 constexpr double kEnough = 20;
+constexpr double kExpectedPerThreshold = 1 / 2.5;
+// No truncation below this number of standard deviations.
+constexpr double kLeastTruncation = 2.5;
+constexpr int kPolishRounds = 4;
 
-// Robust standard deviation of errors, from the median of those squares that are below a threshold's.
-double deviation(std::vector<double> squared, double threshold, double medianOfStandard) {
+std::vector<double> below(std::vector<double> squared, double threshold) {
   const auto isOutlier = [&](double e) { return !(e < threshold * threshold); };
   squared.erase(std::remove_if(squared.begin(), squared.end(), isOutlier), squared.end());
-  const double known = std::min(static_cast<double>(squared.size()) / kEnough, 1.0);
-  double variance = (1 - known) * std::pow(threshold / 2.5, 2);
-  if (!squared.empty()) {
-    const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-    std::nth_element(squared.begin(), middle, squared.end());
-    variance += known * *middle / medianOfStandard;
-  }
-  return std::max(std::sqrt(variance), kLeastNoise * threshold);
+  return squared;
 }
 
-// Truncation where a normal error is exceeded in about one of 80 cases: |e| > 2.5 sigma, e1^2 + e2^2 > (2.97 sigma)^2.
-constexpr double kTruncationRays = 2.5, kTruncationPoints = 2.97;
-constexpr int kPolishRounds = 4;
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double mean(const std::vector<double>& values) {
+  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+}
+
+// The variance of one type's errors, of which `count` are known.
+struct Measured {
+  double variance, threshold;
+  std::size_t count;
+
+  double known() const { return std::min(static_cast<double>(count) / kEnough, 1.0); }
+  double perThreshold() const { return std::sqrt(variance) / threshold; }
+};
+
+double deviation(const Measured& type, const Measured& other) {
+  const double expectedPerThreshold = other.known() * other.perThreshold() + (1 - other.known()) * kExpectedPerThreshold;
+  const double expected = type.threshold * std::min(expectedPerThreshold, kExpectedPerThreshold);
+  const double variance = type.known() * type.variance + (1 - type.known()) * expected * expected;
+  return std::max(std::sqrt(variance), kLeastDeviation * type.threshold);
+}
+
+// Inliers with standard deviation sigma and outliers of even density are equally likely at the error c sigma,
+//
+//     c^2 = 2 log(inliers / outliers x density of an inlier's error at 0 / density of outliers).
+double truncation(std::size_t inliers, std::size_t all, double densityRatio, double sigma, double threshold) {
+  const double outliers = std::max(static_cast<double>(all - inliers), 1.0);
+  const double c2 = 2 * std::log(std::max(static_cast<double>(inliers) / outliers * densityRatio, 1.0));
+  return std::min(std::max(std::sqrt(c2), kLeastTruncation) * sigma, threshold);
+}
 
 }  // namespace
 
-LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, double minFocalLength, double maxFocalLength)
-    : scorer_(scorer), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength) {}
+LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength)
+    : scorer_(scorer), chance_(chance), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength) {}
 
 FocalPose LocalOptimizer::refine(const FocalPose& start) const {
   struct Stage {
@@ -47,7 +78,7 @@ FocalPose LocalOptimizer::refine(const FocalPose& start) const {
   FocalPose pose = start;
   for (const Stage& stage : stages) {
     const double rays = stage.rays * scorer_.maxEpipolarError(), points = stage.points * scorer_.maxReprojectionError();
-    pose = truncated(pose, rays, points, {rays, points}, stage.iterations, stage.minDecrease);
+    pose = truncated(pose, {{rays, rays}, {points, points}}, stage.iterations, stage.minDecrease);
   }
   return pose;
 }
@@ -67,37 +98,52 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
   return result;
 }
 
-FocalPose LocalOptimizer::truncated(const FocalPose& start, double rayScale, double pointScale, const Noise& noise,
-                                    int iterations, double minDecrease) const {
+FocalPose LocalOptimizer::truncated(const FocalPose& start, const Noise& noise, int iterations, double minDecrease) const {
   LeastSquaresOptions options;
   options.maxIterations = iterations;
   options.minRelativeDecrease = minDecrease;
   options.minFocalLength = minFocalLength_, options.maxFocalLength = maxFocalLength_;
-  const LeastSquaresProblem problem =
-      makeProblem(scorer_.arrays(), {Loss::Truncated, pointScale, 1 / (noise.points * noise.points)},
-                  {Loss::Truncated, rayScale, 1 / (noise.rays * noise.rays)});
-  return minimize(problem, start, options).pose;
+  return minimize(problem(noise), start, options).pose;
+}
+
+LeastSquaresProblem LocalOptimizer::problem(const Noise& noise) const {
+  const auto loss = [](const Spread& spread) {
+    return TypeLoss{Loss::Truncated, spread.truncation, 1 / (spread.deviation * spread.deviation)};
+  };
+  return makeProblem(scorer_.arrays(), loss(noise.points), loss(noise.rays));
 }
 
 Noise LocalOptimizer::noise(const FocalPose& pose) const {
-  return {deviation(scorer_.squaredRayErrors(pose), scorer_.maxEpipolarError(), kMedianOne),
-          deviation(scorer_.squaredPointErrors(pose), scorer_.maxReprojectionError(), kMedianTwo)};
+  const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
+  const std::vector<double> rays = scorer_.squaredRayErrors(pose), points = scorer_.squaredPointErrors(pose);
+  const std::vector<double> inlierRays = below(rays, maxRay), inlierPoints = below(points, maxPoint);
+  Noise result;
+  const Measured measuredRays{median(inlierRays) / kMedianOne, maxRay, inlierRays.size()};
+  const Measured measuredPoints{median(inlierPoints) / kMedianTwo, maxPoint, inlierPoints.size()};
+  const double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
+  // Per pixel on a line, 1 / sqrt(2 pi sigma^2) and share / (2 threshold); per pixel of area, 1 / (2 pi sigma^2) and share / (pi
+  // threshold^2).
+  const double rayRatio = 2 * maxRay / (std::sqrt(2 * kPi) * ray * chance_.rayShare(pose.focalLength));
+  const double pointRatio = maxPoint * maxPoint / (2 * point * point * chance_.pointShare());
+  result.rays = {ray, truncation(inlierRays.size(), rays.size(), rayRatio, ray, maxRay)};
+  result.points = {point, truncation(inlierPoints.size(), points.size(), pointRatio, point, maxPoint)};
+  return result;
 }
 
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   FinalPose result;
   result.pose = start;
-  for (int round = 0; optimize && round < kPolishRounds; ++round) {
-    result.noise = noise(result.pose);
-    const double rays = std::min(kTruncationRays * result.noise.rays, scorer_.maxEpipolarError());
-    const double points = std::min(kTruncationPoints * result.noise.points, scorer_.maxReprojectionError());
-    result.pose = truncated(result.pose, rays, points, result.noise, 20, 1e-8);
-  }
+  for (int round = 0; optimize && round < kPolishRounds; ++round)
+    result.pose = truncated(result.pose, noise(result.pose), 20, 1e-8);
+  // The uncertainty of the pose follows from all that was not truncated, not from the median error.
   result.noise = noise(result.pose);
-  const LeastSquaresProblem problem =
-      makeProblem(scorer_.arrays(), {Loss::Truncated, scorer_.maxReprojectionError(), 1 / std::pow(result.noise.points, 2)},
-                  {Loss::Truncated, scorer_.maxEpipolarError(), 1 / std::pow(result.noise.rays, 2)});
-  result.information = information(problem, result.pose);
+  const std::vector<double> rays = below(scorer_.squaredRayErrors(result.pose), result.noise.rays.truncation);
+  const std::vector<double> points = below(scorer_.squaredPointErrors(result.pose), result.noise.points.truncation);
+  const Measured measuredRays{mean(rays), scorer_.maxEpipolarError(), rays.size()};
+  const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
+  result.noise.rays.deviation = deviation(measuredRays, measuredPoints);
+  result.noise.points.deviation = deviation(measuredPoints, measuredRays);
+  result.information = information(problem(result.noise), result.pose);
   return result;
 }
 

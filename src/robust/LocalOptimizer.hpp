@@ -1,16 +1,21 @@
 // Local optimization of a pose over the inliers of both types.
 #pragma once
 
+#include "robust/ChanceModel.hpp"
 #include "robust/LeastSquares.hpp"
 #include "robust/PoseScorer.hpp"
 
 namespace hybridgv {
 namespace robust {
 
-// Robust standard deviations of the inliers' errors [px].
+// The inliers of one type: the standard deviation of their errors (2D-3D: per coordinate), and the error from which a
+// correspondence is more likely an outlier [px].
+struct Spread {
+  double deviation = 0, truncation = 0;
+};
+
 struct Noise {
-  double rays = 0;    // Sampson error
-  double points = 0;  // reprojection error, per coordinate
+  Spread rays, points;
 };
 
 struct FinalPose {
@@ -21,13 +26,14 @@ struct FinalPose {
 
 class LocalOptimizer {
  public:
-  LocalOptimizer(const PoseScorer& scorer, double minFocalLength, double maxFocalLength);
+  // The scorer and the chance model must outlive the optimizer.
+  LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength);
 
   // From a minimal solution to a local optimum of the truncated squared errors. The truncation starts wide, because a solution
   // from noisy points is far from most viewing rays, and narrows down to the thresholds.
   FocalPose refine(const FocalPose& start) const;
-  // From a local optimum to the most likely pose: each type is weighed by its own noise, and truncated where errors are
-  // improbable. Without `optimize` only the noise and the information of the start.
+  // From a local optimum to the most likely pose: each type is weighed by its own noise, and truncated where an outlier is more
+  // likely. Without `optimize` only the noise and the information of the start.
   FinalPose polish(const FocalPose& start, bool optimize) const;
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
   // focal length. Without points the origin stands for them.
@@ -35,10 +41,11 @@ class LocalOptimizer {
   Noise noise(const FocalPose& pose) const;
 
  private:
-  FocalPose truncated(const FocalPose& start, double rayScale, double pointScale, const Noise& noise, int iterations,
-                      double minDecrease) const;
+  LeastSquaresProblem problem(const Noise& noise) const;
+  FocalPose truncated(const FocalPose& start, const Noise& noise, int iterations, double minDecrease) const;
 
   const PoseScorer& scorer_;
+  const ChanceModel& chance_;
   double minFocalLength_, maxFocalLength_;
 };
 

@@ -44,7 +44,7 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   const robust::FinalPose final = search.finish(options.finalOptimization);
   const robust::Normalization& normalization = search.scorer().arrays().normalization();
   result.pose = normalization.undo(final.pose);
-  result.noise2d2d = final.noise.rays, result.noise2d3d = final.noise.points;
+  result.noise2d2d = final.noise.rays.deviation, result.noise2d3d = final.noise.points.deviation;
   result.score = search.best().evaluation.score;
   result.solver = search.best().solver;
   setMasks(search, result);

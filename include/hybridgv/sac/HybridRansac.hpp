@@ -108,8 +108,8 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   /// do not fix the pose.
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
-  double noise2d2d = 0;  ///< [px] robust standard deviation of the inliers' Sampson errors
-  double noise2d3d = 0;  ///< [px] robust standard deviation of the inliers' reprojection errors, per coordinate
+  double noise2d2d = 0;  ///< [px] standard deviation of the Sampson errors, without those that are more likely outliers
+  double noise2d3d = 0;  ///< [px] standard deviation of the reprojection errors per coordinate, likewise
 
   std::optional<Solver> solver;                    ///< whose solution led to the pose; empty if it was options.initialPose
   int iterations = 0;                              ///< samples drawn
