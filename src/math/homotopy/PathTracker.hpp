@@ -241,8 +241,8 @@ class PathTracker {
   unsigned active_ = 0;
 };
 
-// Newton steps at t on points[indices[..]]: until they are smaller than `enough` (relative), at most maxSteps. The last step's size
-// to lastStep[indices[..]].
+// Newton steps at t on points[indices[..]]: until they are smaller than `enough` (relative), at most maxSteps. The last step's
+// size to lastStep[indices[..]].
 template <class System, class V, Pivoting pivoting, class Homotopy>
 void newtonSteps(const Homotopy& homotopy, Real<V> t, Point<Real<V>, System::kUnknowns>* points, const int* indices, int count,
                  int maxSteps, Real<V> enough, Real<V>* lastStep) {

@@ -37,7 +37,8 @@ class PathSolver {
     sortOut();
     if (countOf(State::Bad) > kHopeless * start_.paths) return;
     if (effort == h51f::Effort::Complete)
-      for (int round = 0, spent = 0; round < h51f::kRounds && countOf(State::Bad) > 0 && spent < h51f::kMaxStepsPerRound; ++round) {
+      for (int round = 0, spent = 0; round < h51f::kRounds && countOf(State::Bad) > 0 && spent < h51f::kMaxStepsPerRound;
+           ++round) {
         const int steps = secondPass(round);
         spent += steps, ends->steps += steps;
       }
@@ -188,7 +189,12 @@ class PathSolver {
     SecondTracker::startTangents(homotopy_, starts, all, count, tangents);
     const double tolerance = round == 0 ? 4e-3 : round == 1 ? 4e-4 : 4e-5, acceptSecond = 0.05 * tolerance;
     const int share = h51f::kMaxStepsPerRound / count;
-    const TrackingOptions options{tolerance, 5 * tolerance, acceptSecond, 0.02, 0.2, 1e-12,
+    const TrackingOptions options{tolerance,
+                                  5 * tolerance,
+                                  acceptSecond,
+                                  0.02,
+                                  0.2,
+                                  1e-12,
                                   share < h51f::kMaxStepsSecondPass ? share : h51f::kMaxStepsSecondPass};
     SecondTracker::track(homotopy_, starts, tangents, all, count, options, ends);
     int reached[kMaxPaths] = {}, countReached = 0, steps = 0;

@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 using solvers::PointMatch;
 using solvers::RayMatch;
 
-// Relative to the image scale: the distance of image points from the images of their rays, and the focal length, below which image
-// points at the principal point make spurious solutions.
+// Relative to the image scale: the distance of image points from the images of their rays, and the focal length, below which
+// image points at the principal point make spurious solutions.
 constexpr double kLargestResidual = 1e-7, kSmallestFocalLength = 1e-4;
 
 // Is the ray seen at its image point, in front of both cameras?
