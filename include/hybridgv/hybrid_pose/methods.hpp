@@ -12,8 +12,21 @@
 namespace hybridgv {
 namespace hybrid_pose {
 
-/// H13f. `indices[0]`: one 2D-2D correspondence, `indices[1]`: three 2D-3D ones.
+/// H13f: pose and focal length from one 2D-2D and three 2D-3D correspondences. Each 2D-3D correspondence gives two equations,
+///
+///     (u_i, v_i) = focalLength (x_i/z_i, y_i/z_i),   (x_i, y_i, z_i) = rotation^T (X_i - position),   z_i > 0,
+///
+/// the 2D-2D one the last: the ray through (u, v) meets the rig camera's ray camOffset + beta q in front of both.
+///
+/// \param adapter  image points relative to the principal point, undistorted; any unit
+/// \param indices  `indices[0]`: one 2D-2D correspondence, `indices[1]`: three different 2D-3D ones
+/// \return at most 12 poses (1.9 on average), in no particular order. Empty for three collinear or coinciding points, coinciding
+///         image points, a ray through one of the points (it adds no equation) and data without a real solution.
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices and data that are not finite
+///
+/// The problem is that of Bhayani et al., WACV 2023; solved by one form of degree 12, in about 0.27 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
+/// The same for the first 2D-2D and the first three 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 
 /// H32f: pose and focal length of the query from three 2D-2D and two 2D-3D correspondences, whatever rig cameras the three
