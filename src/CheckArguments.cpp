@@ -65,7 +65,7 @@ static void checkFinite(const char* what, int index, const Eigen::Vector3d& valu
 
 // (u, v, w) -> (u/w, v/w)
 static Eigen::Vector3d readImagePoint(const char* what, int index, const Eigen::Vector3d& homogeneous) {
-  const Eigen::Vector3d point = homogeneous[2] == 1 ? homogeneous : Eigen::Vector3d(homogeneous / homogeneous[2]);
+  Eigen::Vector3d point = homogeneous[2] == 1 ? homogeneous : Eigen::Vector3d(homogeneous / homogeneous[2]);
   checkFinite(what, index, point);
   return point;
 }

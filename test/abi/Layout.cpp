@@ -8,6 +8,7 @@
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
+#include "hybridgv/sac_problems/hybrid_pose/HybridProblemCore.hpp"
 #include "hybridgv/types.hpp"
 
 namespace hybridgv {
@@ -29,6 +30,7 @@ static constexpr LayoutEntry kEntries[] = {
     HYBRIDGV_ENTRY(sac::HybridRansacOptions),
     HYBRIDGV_ENTRY(sac::HybridRansacResult),
     HYBRIDGV_ENTRY(sac::SolverPrior),
+    HYBRIDGV_ENTRY(sac_problems::hybrid_pose::HybridProblemCore),
     HYBRIDGV_ENTRY(sfm::Camera),
     HYBRIDGV_ENTRY(sfm::FileError),
     HYBRIDGV_ENTRY(sfm::Image),

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,6 +22,8 @@
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 #include "hybridgv/relative_pose/methods.hpp"
+#include "hybridgv/sac/HybridRansac.hpp"
+#include "hybridgv/sac_problems/hybrid_pose/HybridProblemCore.hpp"
 
 using namespace hybridgv;
 
@@ -62,6 +64,29 @@ Numbers residuals(const hybrid_pose::HybridAdapterBase& adapter, const FocalPose
   return numbers;
 }
 
+Numbers robust(const hybrid_pose::HybridAdapterBase& adapter, const FocalPose& /*start*/) {
+  sac::HybridRansacOptions options;
+  options.seed = 1;
+  options.maxIterations = 20;
+  const sac::HybridRansacResult result = sac::hybridRansac(adapter, options);
+  Numbers numbers{result.score, double(result.numberInliers2d2d), double(result.numberInliers2d3d), double(result.iterations)};
+  append(numbers, result.pose);
+  numbers.insert(numbers.end(), result.covariance.begin(), result.covariance.end());
+  return numbers;
+}
+
+// What the problems for OpenGV's loops call.
+Numbers opengvProblem(const hybrid_pose::HybridAdapterBase& adapter, const FocalPose& start) {
+  const sac_problems::hybrid_pose::HybridProblemCore core(adapter, Solver::H13f, 12, 6);
+  std::vector<int> all(adapter.getNumberCorrespondences2d2d() + adapter.getNumberCorrespondences2d3d());
+  std::iota(all.begin(), all.end(), 0);
+  Numbers numbers;
+  core.distances(start, all, numbers);
+  FocalPose model;
+  if (core.computeModel({{0}, {0, 1, 2}}, all, model)) append(numbers, core.optimize(core.split(all), model));
+  return numbers;
+}
+
 // What is called, on which problems; `start` is a pose near the truth.
 struct Item {
   const char* name;
@@ -83,6 +108,8 @@ const std::vector<Item> kItems = {
      [](const auto& adapter, const FocalPose&) { return flatten(relative_pose::sixpt_onefocal(adapter)); }},
     {"optimize_nonlinear", {4, 4}, 10, optimize},
     {"residuals", {4, 4}, 10, residuals},
+    {"hybridRansac", {10, 10}, 20, robust},
+    {"HybridProblemCore", {4, 4}, 10, opengvProblem},
 };
 
 // All input of a problem as numbers, and back.
