@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMaxShare = 0.5;
+// Natural log of the probability that a type's inliers are chance, below which they are taken as more than that.
+constexpr double kLogMoreThanChance = -7;
 
 class BoundingBox {
  public:
@@ -58,6 +60,14 @@ double logTail(int n, int k, double p) {
   const double q = static_cast<double>(k) / n;
   const double rest = q < 1 ? (1 - q) * std::log((1 - q) / (1 - p)) : 0;
   return -n * (q * std::log(q / p) + rest);
+}
+
+bool ChanceModel::raysAreMoreThanChance(int inliers, int all, double focalLength) const {
+  return logTail(all, inliers, rayShare(focalLength)) < kLogMoreThanChance;
+}
+
+bool ChanceModel::pointsAreMoreThanChance(int inliers, int all) const {
+  return logTail(all, inliers, pointShare_) < kLogMoreThanChance;
 }
 
 double ChanceModel::logProbability(const Support& support, double focalLength, int parameters) const {

@@ -23,6 +23,10 @@ class ChanceModel {
   double rayShare(double focalLength) const;
   double pointShare() const { return pointShare_; }
 
+  // Whether a pose has more inliers of a type than a wrong one would have.
+  bool raysAreMoreThanChance(int inliers, int all, double focalLength) const;
+  bool pointsAreMoreThanChance(int inliers, int all) const;
+
   // Upper bound of the log10 of the probability that a wrong pose has at least this support, although it has been fitted:
   // `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
   double logProbability(const Support& support, double focalLength, int parameters) const;

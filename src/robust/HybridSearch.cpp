@@ -16,6 +16,9 @@ constexpr int kFirstBatch = 16, kLargestBatch = 128;
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
 constexpr double kLogFalseAlarms = -6;
+// Mean squared error of rays over the squared threshold above which they may be those of a wrong pose; 0.16 for normal errors and
+// a threshold of 2.5 standard deviations.
+constexpr double kEvenSpread = 0.18;
 // Gain of the score for which an optimization is repeated.
 constexpr double kLeastGain = 0.01;
 constexpr double kDistanceFactors[] = {1, 1.25, 1.6};
@@ -153,7 +156,7 @@ void HybridSearch::considerSolution(const FocalPose& pose, Attempt& attempt) con
 void HybridSearch::consider(const Model& candidate) {
   Model optimized = candidate;
   if (options_.localOptimization) {
-    optimizeFrom(candidate.pose, optimized);
+    optimizeFrom(candidate.pose, Types{}, optimized);
     if (isBetter(optimized)) escapeLocalOptimum(optimized);
   }
   if (isBetter(optimized)) setBest(optimized);
@@ -165,9 +168,9 @@ bool HybridSearch::isBetter(const Model& model) const {
   return model.evaluation.score > best_.evaluation.score;
 }
 
-void HybridSearch::optimizeFrom(const FocalPose& start, Model& model) {
+void HybridSearch::optimizeFrom(const FocalPose& start, const Types& types, Model& model) {
   ++localOptimizations_;
-  const FocalPose pose = optimizer_.refine(start);
+  const FocalPose pose = optimizer_.refine(start, types);
   const Evaluation evaluation = scorer_.evaluate(pose);
   if (!(evaluation.score > model.evaluation.score)) return;
   model.pose = pose;
@@ -181,7 +184,7 @@ void HybridSearch::escapeLocalOptimum(Model& model) {
   for (const double factor : kDistanceFactors)
     for (double before = 0; model.evaluation.score > (1 + kLeastGain) * before;) {
       before = model.evaluation.score;
-      optimizeFrom(optimizer_.atDistance(model.pose, factor), model);
+      optimizeFrom(optimizer_.atDistance(model.pose, factor), optimizer_.moreThanChance(model.pose), model);
     }
 }
 
@@ -239,10 +242,22 @@ FinalPose HybridSearch::finish(bool optimize) {
   return result;
 }
 
+// Rays alone can agree with a pose near the right one better than with any wrong one, but not well: their errors then spread
+// evenly up to the threshold (mean square 1/3 of its square), while those of a right pose gather at 0.
+bool HybridSearch::looksTruncated() const {
+  double sum = 0;
+  int count = 0;
+  for (const double squared : scorer_.squaredRayErrors(best_.pose))
+    if (squared < std::pow(scorer_.maxEpipolarError(), 2)) sum += squared, ++count;
+  return sum > kEvenSpread * count * std::pow(scorer_.maxEpipolarError(), 2);
+}
+
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
 // chance, with one parameter left to fit.
 sac::FailureReason HybridSearch::verify(bool isRegular) const {
   if (!isSignificant(best_)) return sac::FailureReason::InliersMayBeChance;
+  if (!chance_.pointsAreMoreThanChance(best_.evaluation.points, sampler_.numberPoints()) && looksTruncated())
+    return sac::FailureReason::InliersMayBeChance;
   std::vector<char> rays, points;
   scorer_.inliers(best_.pose, rays, points);
   const std::vector<int> perCamera = sampler_.count(rays, points).raysPerCamera;

@@ -68,7 +68,7 @@ class HybridSearch {
   void considerSolution(const FocalPose& pose, Attempt& attempt) const;
   void consider(const Model& candidate);
   // Optimizes a start; replaces the model if the result is better.
-  void optimizeFrom(const FocalPose& start, Model& model);
+  void optimizeFrom(const FocalPose& start, const Types& types, Model& model);
   void escapeLocalOptimum(Model& model);
   void setBest(const Model& model);
   bool isWorthConsidering(const Attempt& candidate);
@@ -79,6 +79,7 @@ class HybridSearch {
   bool isBetter(const Model& model) const;
   bool isDone();
   bool isOutOfTime() const;
+  bool looksTruncated() const;
   Support support(const Evaluation& evaluation) const;
 
   const sac::HybridRansacOptions& options_;

@@ -68,7 +68,7 @@ double truncation(std::size_t inliers, std::size_t all, double densityRatio, dou
 LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength)
     : scorer_(scorer), chance_(chance), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength) {}
 
-FocalPose LocalOptimizer::refine(const FocalPose& start) const {
+FocalPose LocalOptimizer::refine(const FocalPose& start, const Types& types) const {
   struct Stage {
     double rays, points;  // in thresholds
     int iterations;
@@ -78,7 +78,7 @@ FocalPose LocalOptimizer::refine(const FocalPose& start) const {
   FocalPose pose = start;
   for (const Stage& stage : stages) {
     const double rays = stage.rays * scorer_.maxEpipolarError(), points = stage.points * scorer_.maxReprojectionError();
-    pose = truncated(pose, {{rays, rays}, {points, points}}, stage.iterations, stage.minDecrease);
+    pose = truncated(pose, {{rays, rays}, {points, points}}, types, stage.iterations, stage.minDecrease);
   }
   return pose;
 }
@@ -98,19 +98,31 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
   return result;
 }
 
-FocalPose LocalOptimizer::truncated(const FocalPose& start, const Noise& noise, int iterations, double minDecrease) const {
+FocalPose LocalOptimizer::truncated(const FocalPose& start, const Noise& noise, const Types& types, int iterations,
+                                    double minDecrease) const {
   LeastSquaresOptions options;
   options.maxIterations = iterations;
   options.minRelativeDecrease = minDecrease;
   options.minFocalLength = minFocalLength_, options.maxFocalLength = maxFocalLength_;
-  return minimize(problem(noise), start, options).pose;
+  return minimize(problem(noise, types), start, options).pose;
 }
 
-LeastSquaresProblem LocalOptimizer::problem(const Noise& noise) const {
+LeastSquaresProblem LocalOptimizer::problem(const Noise& noise, const Types& types) const {
   const auto loss = [](const Spread& spread) {
     return TypeLoss{Loss::Truncated, spread.truncation, 1 / (spread.deviation * spread.deviation)};
   };
-  return makeProblem(scorer_.arrays(), loss(noise.points), loss(noise.rays));
+  LeastSquaresProblem result = makeProblem(scorer_.arrays(), loss(noise.points), loss(noise.rays));
+  if (!types.rays) result.rays.size = 0;
+  if (!types.points) result.points.size = 0;
+  return result;
+}
+
+Types LocalOptimizer::moreThanChance(const FocalPose& pose) const {
+  const Evaluation evaluation = scorer_.evaluate(pose);
+  const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
+  const Types types{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), pose.focalLength),
+                    chance_.pointsAreMoreThanChance(evaluation.points, size(scorer_.arrays().points()))};
+  return types.rays || types.points ? types : Types{};
 }
 
 Noise LocalOptimizer::noise(const FocalPose& pose) const {
@@ -133,8 +145,9 @@ Noise LocalOptimizer::noise(const FocalPose& pose) const {
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   FinalPose result;
   result.pose = start;
+  const Types types = moreThanChance(start);
   for (int round = 0; optimize && round < kPolishRounds; ++round)
-    result.pose = truncated(result.pose, noise(result.pose), 20, 1e-8);
+    result.pose = truncated(result.pose, noise(result.pose), types, 20, 1e-8);
   // The uncertainty of the pose follows from all that was not truncated, not from the median error.
   result.noise = noise(result.pose);
   const std::vector<double> rays = below(scorer_.squaredRayErrors(result.pose), result.noise.rays.truncation);
@@ -143,7 +156,7 @@ FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
   result.noise.rays.deviation = deviation(measuredRays, measuredPoints);
   result.noise.points.deviation = deviation(measuredPoints, measuredRays);
-  result.information = information(problem(result.noise), result.pose);
+  result.information = information(problem(result.noise, types), result.pose);
   return result;
 }
 

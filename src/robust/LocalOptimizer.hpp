@@ -24,6 +24,11 @@ struct FinalPose {
   Matrix7 information = Matrix7::Zero();  // of the pose, for this noise
 };
 
+// The types that an optimization uses.
+struct Types {
+  bool rays = true, points = true;
+};
+
 class LocalOptimizer {
  public:
   // The scorer and the chance model must outlive the optimizer.
@@ -31,7 +36,7 @@ class LocalOptimizer {
 
   // From a minimal solution to a local optimum of the truncated squared errors. The truncation starts wide, because a solution
   // from noisy points is far from most viewing rays, and narrows down to the thresholds.
-  FocalPose refine(const FocalPose& start) const;
+  FocalPose refine(const FocalPose& start, const Types& types = {}) const;
   // From a local optimum to the most likely pose: each type is weighed by its own noise, and truncated where an outlier is more
   // likely. Without `optimize` only the noise and the information of the start.
   FinalPose polish(const FocalPose& start, bool optimize) const;
@@ -39,10 +44,12 @@ class LocalOptimizer {
   // focal length. Without points the origin stands for them.
   FocalPose atDistance(const FocalPose& pose, double factor) const;
   Noise noise(const FocalPose& pose) const;
+  // The types with more inliers than a wrong pose has; both if none has.
+  Types moreThanChance(const FocalPose& pose) const;
 
  private:
-  LeastSquaresProblem problem(const Noise& noise) const;
-  FocalPose truncated(const FocalPose& start, const Noise& noise, int iterations, double minDecrease) const;
+  LeastSquaresProblem problem(const Noise& noise, const Types& types) const;
+  FocalPose truncated(const FocalPose& start, const Noise& noise, const Types& types, int iterations, double minDecrease) const;
 
   const PoseScorer& scorer_;
   const ChanceModel& chance_;
