@@ -21,7 +21,7 @@ constexpr double kLogFalseAlarms = -6;
 constexpr double kEvenSpread = 0.18;
 // Gain of the score for which an optimization is repeated.
 constexpr double kLeastGain = 0.01;
-constexpr double kDistanceFactors[] = {1, 1.25, 1.6};
+constexpr double kDistanceFactors[] = {1.25, 1.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 
@@ -177,9 +177,8 @@ void HybridSearch::optimizeFrom(const FocalPose& start, const Types& types, Mode
   model.evaluation = evaluation;
 }
 
-// The truncated errors have local optima. Two ways out that cost little: once more from wide to narrow; and, because noisy points
-// give optima at too small a distance with the matching focal length, from farther away, the focal length keeping the images'
-// size.
+// The truncated errors have local optima. With noisy points the distance and the matching focal length are too small there. The
+// right one is found from farther away, the focal length keeping the images' size.
 void HybridSearch::escapeLocalOptimum(Model& model) {
   for (const double factor : kDistanceFactors)
     for (double before = 0; model.evaluation.score > (1 + kLeastGain) * before;) {

@@ -74,7 +74,7 @@ FocalPose LocalOptimizer::refine(const FocalPose& start, const Types& types) con
     int iterations;
     double minDecrease;
   };
-  constexpr Stage stages[] = {{16, 2, 3, 1e-3}, {8, 2, 3, 1e-3}, {4, 1.5, 3, 1e-3}, {2, 1, 3, 1e-3}, {1, 1, 20, 1e-6}};
+  constexpr Stage stages[] = {{16, 2, 2, 1e-2}, {8, 2, 2, 1e-2}, {4, 1.5, 2, 1e-2}, {2, 1, 2, 1e-2}, {1, 1, 10, 1e-4}};
   FocalPose pose = start;
   for (const Stage& stage : stages) {
     const double rays = stage.rays * scorer_.maxEpipolarError(), points = stage.points * scorer_.maxReprojectionError();
