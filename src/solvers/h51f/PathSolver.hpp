@@ -34,8 +34,9 @@ class PathSolver {
     PathEnd<float, N> first[kMaxPaths];
     firstPass(first);
     for (int i = 0; i < start_.paths; ++i) ends->steps += first[i].attempts;
+    giveUpInfinitePaths();
     sortOut();
-    if (countOf(State::Bad) > kHopeless * start_.paths) return;
+    if (countOf(State::Bad) + countOf(State::AtInfinity) > kHopeless * start_.paths) return;
     if (effort == h51f::Effort::Complete)
       for (int round = 0, spent = 0; round < h51f::kRounds && countOf(State::Bad) > 0 && spent < h51f::kMaxStepsPerRound;
            ++round) {
@@ -49,6 +50,8 @@ class PathSolver {
   static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths;
   static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
   static constexpr double kHopeless = 0.8;         // share of bad paths that only degenerate data have
+  static constexpr double kHuge = 1e5;
+  static constexpr int kFewestAtInfinity = 6;
   static constexpr double kFloatConverged = 1e-4;  // last Newton step in single precision
   static constexpr double kFloatReal = 3e-2;       // single precision solutions that are this close to real may be real
   static constexpr double kFloatDistinct = 1e-3;
@@ -113,6 +116,23 @@ class PathSolver {
   }
 
   // --- judging end points
+
+  // Data with solutions at infinity have at least eight of them, and single precision tracks their paths far enough. A few huge
+  // unknowns are no proof.
+  void giveUpInfinitePaths() {
+    int huge = 0;
+    for (int i = 0; i < start_.paths; ++i) huge += state_[i] == State::Bad && isHuge(i);
+    for (int i = 0; i < start_.paths && huge >= kFewestAtInfinity; ++i)
+      if (state_[i] == State::Bad && isHuge(i)) state_[i] = State::AtInfinity;
+  }
+  bool isHuge(int i) const {
+    bool huge = false;
+    for (int k = 0; k < N; ++k) {
+      const double size = squaredNorm(at(i, k));
+      huge = huge || size > kHuge * kHuge || (k >= H51fSystem::kAbsolute && size * kHuge * kHuge < 1);
+    }
+    return huge;
+  }
 
   // Whether the end points differ by less than the tolerance, relative to their size.
   bool coincide(int i, int j, double tolerance) const {
