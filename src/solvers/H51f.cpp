@@ -12,7 +12,7 @@ int h51f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions) {
   const auto belongsToFirst = [&](const RayMatch& ray) { return hybridgv::h51f::sameCentre(rays[0], ray, points[0].point); };
   if (std::all_of(rays + 1, rays + hybridgv::h51f::kRays, belongsToFirst)) return h51fOneCentre(rays, points, solutions);
   hybridgv::h51f::EndPoints ends;
-  return hybridgv::h51f::solve(math::simdLevel(), hybridgv::h51f::Effort::Complete, rays, points[0], solutions, &ends);
+  return hybridgv::h51f::solve(math::simdLevel(), rays, points[0], solutions, &ends);
 }
 
 }  // namespace solvers

@@ -13,17 +13,16 @@ namespace hybridgv {
 namespace test {
 namespace {
 
-using h51f::Effort;
 using h51f::EndPoints;
 using math::SimdLevel;
 
 constexpr double kRecovered = 1e-6;
 constexpr double kSmallResidual = 1e-5;  // [px]
 
-FocalPoses solve(const MinimalProblem& problem, SimdLevel level, Effort effort = Effort::Complete, EndPoints* ends = nullptr) {
+FocalPoses solve(const MinimalProblem& problem, SimdLevel level, EndPoints* ends = nullptr) {
   EndPoints unused;
   FocalPoses solutions(solvers::kMaxSolutions);
-  const int count = h51f::solve(level, effort, problem.rays.data(), problem.points[0], solutions.data(), ends ? ends : &unused);
+  const int count = h51f::solve(level, problem.rays.data(), problem.points[0], solutions.data(), ends ? ends : &unused);
   solutions.resize(static_cast<std::size_t>(count));
   return solutions;
 }
@@ -59,7 +58,7 @@ class H51fLevels : public testing::TestWithParam<SimdLevel> {
       Random random(testSeed() + stream, i);
       const MinimalProblem problem = makeProblem(random);
       EndPoints ends;
-      const FocalPoses solutions = solve(problem, GetParam(), Effort::Complete, &ends);
+      const FocalPoses solutions = solve(problem, GetParam(), &ends);
       expectValid(problem, solutions);
       found_ += distanceToNearest(solutions, problem.truth) < kRecovered;
       complete_ += ends.complete();
@@ -119,19 +118,6 @@ TEST_P(H51fLevels, SolvesImagePointsAtThePrincipalPoint) {
   }
 }
 
-TEST_P(H51fLevels, OnePassMissesFew) {
-  constexpr std::uint64_t kCount = 150;
-  std::uint64_t found = 0;
-  for (std::uint64_t i = 0; i < kCount; ++i) {
-    Random random(testSeed() + 20, i);
-    const MinimalProblem problem = makeMinimalProblem(random, h51fPatterns()[i % 6], 1);
-    const FocalPoses solutions = solve(problem, GetParam(), Effort::OnePass);
-    expectValid(problem, solutions);
-    found += distanceToNearest(solutions, problem.truth) < kRecovered;
-  }
-  EXPECT_GE(found, kCount * 95 / 100);
-}
-
 TEST_P(H51fLevels, StopsOnDegenerateData) {
   using Change = std::function<void(MinimalProblem&, Random&)>;
   const std::vector<Change> changes = {
@@ -171,7 +157,7 @@ TEST_P(H51fLevels, StopsOnDegenerateData) {
       MinimalProblem problem = makeMinimalProblem(random, h51fPatterns()[k % 6], 1);
       changes[i](problem, random);
       EndPoints ends;
-      const FocalPoses solutions = solve(problem, GetParam(), Effort::Complete, &ends);
+      const FocalPoses solutions = solve(problem, GetParam(), &ends);
       for (const FocalPose& pose : solutions) {
         EXPECT_TRUE(pose.rotation.allFinite() && pose.position.allFinite() && std::isfinite(pose.focalLength)) << i;
         EXPECT_GT(pose.focalLength, 0) << i;

@@ -29,7 +29,7 @@ class PathSolver {
     for (int i = 0; i < start_.paths; ++i) steps[i] = ends[i].reached ? ends[i].attempts : kFirstPass.attempts;
   }
 
-  void solve(h51f::Effort effort, h51f::EndPoints* ends) {
+  void solve(h51f::EndPoints* ends) {
     ends->paths = start_.paths, ends->accepted = 0, ends->count = 0, ends->steps = 0;
     PathEnd<float, N> first[kMaxPaths];
     firstPass(first);
@@ -37,19 +37,17 @@ class PathSolver {
     giveUpInfinitePaths();
     sortOut();
     if (countOf(State::Bad) + countOf(State::AtInfinity) > kHopeless * start_.paths) return;
-    if (effort == h51f::Effort::Complete)
-      for (int round = 0, spent = 0; round < h51f::kRounds && countOf(State::Bad) > 0 && spent < h51f::kMaxStepsPerRound;
-           ++round) {
-        const int steps = secondPass(round);
-        spent += steps, ends->steps += steps;
-      }
+    for (int round = 0, spent = 0; round < h51f::kRounds && countOf(State::Bad) > 0 && spent < h51f::kMaxStepsPerRound; ++round) {
+      const int steps = secondPass(round);
+      spent += steps, ends->steps += steps;
+    }
     collect(ends);
   }
 
  private:
   static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths;
   static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
-  static constexpr double kHopeless = 0.8;         // share of bad paths that only degenerate data have
+  static constexpr double kHopeless = 0.8;  // share of bad paths that only degenerate data have
   static constexpr double kHuge = 1e5;
   static constexpr int kFewestAtInfinity = 6;
   static constexpr double kFloatConverged = 1e-4;  // last Newton step in single precision

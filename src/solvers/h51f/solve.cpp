@@ -34,8 +34,7 @@ static Solution solutionAt(const math::Point<double, kUnknowns>& p) {
   return {{p.re[0], p.im[0]}, {p.re[1], p.im[1]}, {p.re[2], p.im[2]}, {p.re[3], p.im[3]}, {p.re[4], p.im[4]}};
 }
 
-int solve(math::SimdLevel level, Effort effort, const RayMatch* rays, const PointMatch& point, FocalPose* solutions,
-          EndPoints* ends) {
+int solve(math::SimdLevel level, const RayMatch* rays, const PointMatch& point, FocalPose* solutions, EndPoints* ends) {
   *ends = EndPoints();
   RayMatch arranged[kRays];
   const Sharing sharing = arrange(rays, point, arranged);
@@ -45,7 +44,7 @@ int solve(math::SimdLevel level, Effort effort, const RayMatch* rays, const Poin
   alignWith(start, arranged, point, &frame);
   Parameters target = parametersIn(frame, sharing, arranged, point);
   scaleRaysLike(start.parameters, &target);
-  solvePaths(level, start, target, effort, ends);
+  solvePaths(level, start, target, ends);
   int count = 0;
   for (int i = 0; i < ends->count; ++i) {
     const FocalPose pose = poseOf(solutionAt(ends->point[i]), frame, point);

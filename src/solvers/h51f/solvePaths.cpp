@@ -3,14 +3,14 @@
 namespace hybridgv {
 namespace h51f {
 
-void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends) {
+void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameters& target, EndPoints* ends) {
 #ifdef HYBRIDGV_X86_KERNELS
-  if (level == math::SimdLevel::Avx512) return solvePathsAvx512(start, target, effort, ends);
-  if (level == math::SimdLevel::Avx2) return solvePathsAvx2(start, target, effort, ends);
+  if (level == math::SimdLevel::Avx512) return solvePathsAvx512(start, target, ends);
+  if (level == math::SimdLevel::Avx2) return solvePathsAvx2(start, target, ends);
 #else
   static_cast<void>(level);
 #endif
-  solvePathsSse2(start, target, effort, ends);
+  solvePathsSse2(start, target, ends);
 }
 
 }  // namespace h51f

@@ -25,18 +25,13 @@ struct EndPoints {
 constexpr int kMaxStepsFirstPass = 300, kMaxStepsSecondPass = 600, kMaxStepsPerRound = 8000, kRounds = 8;
 constexpr int kMaxSteps = kMaxPaths * kMaxStepsFirstPass + 2 * kMaxStepsPerRound;
 
-enum class Effort {
-  OnePass,   // single precision tracking only: the fastest per solution found, misses 1 % of the solutions
-  Complete,  // doubtful paths are tracked again with double precision and smaller steps
-};
-
 // Bounded time, no allocation. The level must not exceed math::supportedSimdLevel().
-void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends);
+void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameters& target, EndPoints* ends);
 
 // Its versions, one per instruction set.
-void solvePathsSse2(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends);
-void solvePathsAvx2(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends);
-void solvePathsAvx512(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends);
+void solvePathsSse2(const StartSystem& start, const Parameters& target, EndPoints* ends);
+void solvePathsAvx2(const StartSystem& start, const Parameters& target, EndPoints* ends);
+void solvePathsAvx512(const StartSystem& start, const Parameters& target, EndPoints* ends);
 
 }  // namespace h51f
 }  // namespace hybridgv

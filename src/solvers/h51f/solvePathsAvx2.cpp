@@ -4,8 +4,8 @@
 namespace hybridgv {
 namespace h51f {
 
-void solvePathsAvx2(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends) {
-  avx2::PathSolver(start, target).solve(effort, ends);
+void solvePathsAvx2(const StartSystem& start, const Parameters& target, EndPoints* ends) {
+  avx2::PathSolver(start, target).solve(ends);
 }
 
 }  // namespace h51f

@@ -4,8 +4,8 @@
 namespace hybridgv {
 namespace h51f {
 
-void solvePathsAvx512(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends) {
-  avx512::PathSolver(start, target).solve(effort, ends);
+void solvePathsAvx512(const StartSystem& start, const Parameters& target, EndPoints* ends) {
+  avx512::PathSolver(start, target).solve(ends);
 }
 
 }  // namespace h51f

@@ -4,8 +4,8 @@
 namespace hybridgv {
 namespace h51f {
 
-void solvePathsSse2(const StartSystem& start, const Parameters& target, Effort effort, EndPoints* ends) {
-  sse2::PathSolver(start, target).solve(effort, ends);
+void solvePathsSse2(const StartSystem& start, const Parameters& target, EndPoints* ends) {
+  sse2::PathSolver(start, target).solve(ends);
 }
 
 }  // namespace h51f
