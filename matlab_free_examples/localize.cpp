@@ -3,7 +3,6 @@
 //   localize                          the default map, each of its photos in turn as the query
 //   localize MAP [--query NAME ...]   a COLMAP folder (text or binary), a Bundler .out or an NVM file
 //   localize PROBLEM.txt ...          problems in the text format of hybridgv/adapters/sfm/LocalizationProblem.hpp
-#include <unistd.h>
 #include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
 #include <hybridgv/sac/HybridRansac.hpp>
@@ -17,6 +16,10 @@
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+
+#include "common/PoseError.hpp"
+#include "common/ProgressBar.hpp"
+#include "common/Statistics.hpp"
 
 namespace {
 
@@ -131,16 +134,6 @@ std::vector<Query> collectQueries(const Arguments& arguments) {
 
 // ------------------------------------------------------------------------------------------------------------ localization
 
-struct PoseError {
-  double focalPercent, rotationDeg, position;
-};
-
-PoseError compare(const FocalPose& pose, const FocalPose& reference) {
-  const double sine = std::min(1.0, (pose.rotation - reference.rotation).norm() / std::sqrt(8.0));  // of half the angle
-  return {100 * (pose.focalLength / reference.focalLength - 1), 2 * std::asin(sine) * 180 / M_PI,
-          (pose.position - reference.position).norm()};
-}
-
 struct Localization {
   HybridRansacResult result;
   std::optional<PoseError> error;  // if the query has a reference and a pose was found
@@ -149,7 +142,7 @@ struct Localization {
 Localization localize(const NoncentralHybridAdapter& adapter, const std::optional<FocalPose>& reference,
                       const HybridRansacOptions& options) {
   Localization localization{hybridRansac(adapter, options), {}};
-  if (reference && localization.result.success) localization.error = compare(localization.result.pose, *reference);
+  if (reference && localization.result.success) localization.error = poseError(localization.result.pose, *reference);
   return localization;
 }
 
@@ -252,32 +245,6 @@ void printJson(const Row& row) {
   std::cout << json.dump() << std::endl;  // each object is complete and flushed before the next query starts
 }
 
-// On a terminal, redrawn after every query and wiped before the next line of output.
-class ProgressBar {
- public:
-  ProgressBar(std::size_t count, bool enabled) : count_(count), enabled_(enabled && isatty(STDERR_FILENO)) {}
-  ~ProgressBar() { clear(); }
-  void show(std::size_t done) const {
-    constexpr int kWidth = 40;
-    const int filled = static_cast<int>(kWidth * done / count_);
-    if (enabled_)
-      std::fprintf(stderr, "\r[%s%s] %zu/%zu", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-                   std::string(static_cast<std::size_t>(kWidth - filled), ' ').c_str(), done, count_);
-  }
-  void clear() const {
-    if (enabled_) std::fprintf(stderr, "\r\033[K");
-  }
-
- private:
-  std::size_t count_;
-  bool enabled_;
-};
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 // Collects what the closing line of the table says.
 class Summary {
  public:
@@ -306,7 +273,7 @@ void run(const Arguments& arguments) {
   const std::vector<Query> queries = collectQueries(arguments);
   if (queries.empty()) throw std::invalid_argument("nothing to localize");
   if (!arguments.json) printHeader();
-  const ProgressBar progress(queries.size(), !arguments.quiet);
+  ProgressBar progress(queries.size(), !arguments.quiet);
   Summary hybrid, pointsOnly;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     progress.show(i);
