@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace hybridgv {
 namespace math {
@@ -37,14 +39,28 @@ SignChanges signChanges(const double (&b)[D + 1], double tolerance) {
   return changes;
 }
 
-// de Casteljau at 1/2: the coefficients on [0, 1/2] and [1/2, 1].
+// One level of de Casteljau's scheme at 1/2, and those after it: on level k, b_i is replaced by (b_i + b_(i+1)) / 2 for i <= D-k.
+// The first of every level belong to the left half, the last to the right one. Written out without loops, so that all stays in
+// registers; the factors 2^-k come last.
+template <int D, std::size_t... I>
+void halveLevels(double (&sums)[D + 1], double (&left)[D + 1], std::index_sequence<I...>) {
+  constexpr int kLevel = D - static_cast<int>(sizeof...(I));
+  constexpr double kFactor = 1.0 / (1 << kLevel);
+  left[kLevel] = kFactor * sums[0];
+  if constexpr (kLevel < D) {
+    ((sums[I] += sums[I + 1]), ...);
+    halveLevels<D>(sums, left, std::make_index_sequence<D - kLevel - 1>());
+  }
+}
+
+// The coefficients on [0, 1/2] and [1/2, 1].
 template <int D>
 void halve(const double (&b)[D + 1], double (&left)[D + 1], double (&right)[D + 1]) {
-  for (int i = 0; i <= D; ++i) right[i] = b[i];
-  for (int level = 0; level <= D; ++level) {
-    left[level] = right[0];
-    for (int i = 0; i < D - level; ++i) right[i] = (right[i] + right[i + 1]) / 2;
-  }
+  double sums[D + 1];
+  for (int i = 0; i <= D; ++i) sums[i] = b[i];
+  halveLevels<D>(sums, left, std::make_index_sequence<D>());
+  double factor = 1;
+  for (int i = D; i >= 0; --i, factor /= 2) right[i] = factor * sums[i];
 }
 
 }  // namespace math

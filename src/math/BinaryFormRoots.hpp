@@ -19,8 +19,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "math/Bernstein.hpp"
+#include "math/Pair.hpp"
 
 namespace hybridgv {
 namespace math {
@@ -36,9 +39,10 @@ struct Direction {
 template <int D>
 struct BinaryFormTables {
   static constexpr int kSamples = D + 1;
-  static constexpr int kPadded = (kSamples + 1) / 2 * 2;  // room for loops over pairs
-  static constexpr int kRows = D / 2;                     // i = 1 .. D/2
-  static constexpr int kEven = (kSamples + 1) / 2;        // for even D the last is the sample opposite to the arc, alone
+  static constexpr int kPairs = (kSamples + 1) / 2;
+  static constexpr int kPadded = 2 * kPairs;
+  static constexpr int kRows = D / 2;               // i = 1 .. D/2
+  static constexpr int kEven = (kSamples + 1) / 2;  // for even D the last is the sample opposite to the arc, alone
   static constexpr int kOdd = kSamples / 2;
 
   double c[kPadded], s[kPadded];  // directions of the samples; the last is repeated as padding
@@ -55,6 +59,17 @@ struct BinaryFormTables {
 // Writes the (D+1) x (D+1) matrix (row-major) that turns the samples at psi_first .. psi_(first+D) into the Bernstein
 // coefficients of the arc from psi_0 to psi_1.
 void bernsteinMatrix(int degree, int first, double* matrix);
+
+// x^exponent to some percent, for x >= 0: the bits of a double are, up to scale and offset, a piecewise linear logarithm.
+inline double roughPower(double x, double exponent) {
+  constexpr double kBitsOfOne = 1023.0 * (1ull << 52);
+  std::int64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits = static_cast<std::int64_t>(kBitsOfOne + exponent * (static_cast<double>(bits) - kBitsOfOne));
+  double result;
+  std::memcpy(&result, &bits, sizeof result);
+  return result;
+}
 
 template <int D>
 BinaryFormTables<D>::BinaryFormTables() {
@@ -104,40 +119,66 @@ class BinaryFormRoots {
   }
 
  private:
+  // Uncertainty of the samples, relative to the largest.
+  static constexpr double kTau = 1e-12;
+  // A piece is sampled anew where the form is smaller than this share of the largest sample, at most kMaxLevel times over.
+  static constexpr double kFaint = 1e-7;
+  static constexpr int kMaxLevel = 3;
+  static constexpr int kMaxSamplings = 3 * D;
+  // 2^-14 of an arc is the shortest piece.
+  static constexpr int kMaxDepth = 14;
+
   // Part of an arc: p((1-x) (c0,s0) + x (c1,s1)) has the Bernstein coefficients b.
   struct Piece {
     double b[D + 1];
     double c0, s0, c1, s1;
     int depth;
+    // Bit i: the coefficients i and i+1 have different signs, zero counting as positive.
+    unsigned signChanges() const;
+    int smallest() const;
+    bool isBelow(double bound) const;             // all |b_i| < bound
+    void halve(Piece& left, Piece& right) const;  // right may be the piece itself
   };
-  template <class Sample>
-  struct Search {
-    const Sample& sample;
-    Direction* roots;
-    int count;
-    int samplings;  // how often the form may still be sampled
 
-    void add(double c, double s);
-    void arcs(const double* p, const double* c, const double* s, int arcCount, int level);
-    void arc(Piece& arc, double largest, int level);
-    void anew(const Piece& piece, int level);
+  // Simple roots that wait for refinement: several together take hardly longer than one.
+  class SimpleRoots {
+   public:
+    // A piece with one sign change, whose root is to be written to `root`.
+    void add(const Piece& piece, unsigned signChanges, Direction* root);
+    void refine();
+
+   private:
+    static constexpr int kPairs = 4;
+    int count_ = 0;
+    Direction* roots_[2 * kPairs];
+    double c0_[2 * kPairs], s0_[2 * kPairs], c1_[2 * kPairs], s1_[2 * kPairs];
+    double start_[2 * kPairs];
+    double coefficients_[D + 1][2 * kPairs];
   };
-  // Uncertainty of the samples, relative to the largest.
-  static constexpr double kTau = 1e-12;
-  // 2^-14 of an arc is the shortest piece.
-  static constexpr int kMaxDepth = 14;
-  // A piece is sampled anew where the form is smaller than this share of the largest sample.
-  static constexpr double kFaint = 1e-7;
-  static constexpr int kMaxLevel = 3;
-  static constexpr int kMaxSamplings = 3 * D;
+
+  template <class Sample>
+  class Search {
+   public:
+    Search(const Sample& sample, Direction* roots) : sample_(sample), roots_(roots) {}
+    int run();
+
+   private:
+    void arcs(const double* p, const double* c, const double* s, int arcCount, int level);
+    void pieces(const Piece& arc, int level);
+    void anew(const Piece& piece, int level);
+    void add(double c, double s);
+
+    const Sample& sample_;
+    Direction* roots_;
+    int count_ = 0;
+    int samplings_ = 0;
+    SimpleRoots simple_;
+  };
 
   static double secondSmallest(const double* p);
   static void spread(const double* p, double smallToLarge, double* c, double* s);
-  static int variations(const double* b);
-  static int smallest(const double* b);
-  static double largest(const double* b);
-  static void halve(const Piece& piece, Piece& left, Piece& right);
-  static double simpleRoot(const double* b, bool& reversed);
+  static void normalize(const double* c, const double* s, double* unitC, double* unitS, double* length);
+  static void scale(double* p, const double* length);
 };
 
 // ---------------------------------------------------------------------------------------------------------------------------
@@ -145,30 +186,30 @@ class BinaryFormRoots {
 template <int D>
 template <class Sample>
 int BinaryFormRoots<D>::findSampled(const Sample& sample, Direction* roots) {
+  return Search<Sample>(sample, roots).run();
+}
+
+template <int D>
+template <class Sample>
+int BinaryFormRoots<D>::Search<Sample>::run() {
   const Tables& tables = Tables::get();
   double p[kPadded];
-  sample(tables.c, tables.s, p);
-  Search<Sample> search{sample, roots, 0, kMaxSamplings};
+  sample_(tables.c, tables.s, p);
   double largest = 0;
   for (int j = 0; j < kSamples; ++j) largest = std::max(largest, std::abs(p[j]));
   const double ratio = secondSmallest(p) / largest;
   if (!(ratio < 1e-4)) {
-    search.arcs(p, tables.c, tables.s, kSamples, 0);
-    return search.count;
+    arcs(p, tables.c, tables.s, kSamples, 0);
+  } else {
+    double c[kPadded], s[kPadded], unitC[kPadded], unitS[kPadded], length[kPadded];
+    spread(p, ratio, c, s);
+    normalize(c, s, unitC, unitS, length);
+    sample_(unitC, unitS, p);
+    scale(p, length);
+    arcs(p, c, s, kSamples, 0);
   }
-  double c[kPadded], s[kPadded], length[kPadded];
-  spread(p, ratio, c, s);
-  for (int j = 0; j < kPadded; ++j) {
-    length[j] = std::sqrt(c[j] * c[j] + s[j] * s[j]);
-    c[j] /= length[j], s[j] /= length[j];
-  }
-  sample(c, s, p);
-  for (int j = 0; j < kSamples; ++j) {
-    for (int i = 0; i < D; ++i) p[j] *= length[j];
-    c[j] *= length[j], s[j] *= length[j];
-  }
-  search.arcs(p, c, s, kSamples, 0);
-  return search.count;
+  simple_.refine();
+  return count_;
 }
 
 template <int D>
@@ -191,12 +232,15 @@ void BinaryFormRoots<D>::spread(const double* p, double smallToLarge, double* c,
   const Tables& tables = Tables::get();
   double cos2 = 0, sin2 = 0;
   for (int j = 0; j < kSamples; ++j) {
-    const double weight = std::pow(std::abs(p[j]), 2.0 / D);
+    const double weight = roughPower(std::abs(p[j]), 2.0 / D);
     cos2 += weight * (tables.c[j] * tables.c[j] - tables.s[j] * tables.s[j]);
     sin2 += weight * (2 * tables.c[j] * tables.s[j]);
   }
-  const double axis = std::atan2(sin2, cos2) / 2, axisC = std::cos(axis), axisS = std::sin(axis);
-  const double rootK = std::sqrt(std::max(0.03, std::pow(smallToLarge, 1.0 / D)));
+  // half the angle of (cos2, sin2)
+  const double length = std::sqrt(cos2 * cos2 + sin2 * sin2);
+  const double axisC = std::sqrt(std::max(0.0, (length + cos2) / (2 * length)));
+  const double axisS = std::copysign(std::sqrt(std::max(0.0, (length - cos2) / (2 * length))), sin2);
+  const double rootK = std::sqrt(std::max(0.03, roughPower(smallToLarge, 1.0 / D)));
   for (int j = 0; j < kPadded; ++j) {
     const double x = tables.c[j] * rootK, y = tables.s[j] / rootK;
     c[j] = axisC * x - axisS * y, s[j] = axisS * x + axisC * y;
@@ -204,11 +248,22 @@ void BinaryFormRoots<D>::spread(const double* p, double smallToLarge, double* c,
 }
 
 template <int D>
-template <class Sample>
-void BinaryFormRoots<D>::Search<Sample>::add(double c, double s) {
-  if (count == kMaxRoots) return;
-  const double scale = 1 / std::sqrt(c * c + s * s);
-  roots[count++] = {c * scale, s * scale};
+void BinaryFormRoots<D>::normalize(const double* c, const double* s, double* unitC, double* unitS, double* length) {
+  for (int j = 0; j < kPadded; ++j) {
+    length[j] = std::sqrt(c[j] * c[j] + s[j] * s[j]);
+    const double inverse = 1 / length[j];
+    unitC[j] = c[j] * inverse, unitS[j] = s[j] * inverse;
+  }
+}
+
+// p(length v) = length^D p(v)
+template <int D>
+void BinaryFormRoots<D>::scale(double* p, const double* length) {
+  for (int j = 0; j < kSamples; ++j) {
+    double power = length[j];
+    for (int i = 1; i < D; ++i) power *= length[j];
+    p[j] *= power;
+  }
 }
 
 // Samples the form at D+1 directions v = alpha v0 + beta v1 of which the first few lie on the piece from v0 to v1: a linear map
@@ -218,22 +273,20 @@ template <class Sample>
 void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
   const Tables& tables = Tables::get();
   constexpr int kArcs = kSamples / 2;
-  --samplings;
   const double cEnd = tables.c[kArcs], sEnd = tables.s[kArcs];
   double c[kPadded], s[kPadded], unitC[kPadded], unitS[kPadded], length[kPadded], p[kPadded];
   for (int j = 0; j < kPadded; ++j) {
-    const double beta = tables.s[j] / sEnd, alpha = tables.c[j] - tables.s[j] * cEnd / sEnd;
+    const double beta = tables.s[j] / sEnd, alpha = tables.c[j] - beta * cEnd;
     c[j] = alpha * piece.c0 + beta * piece.c1, s[j] = alpha * piece.s0 + beta * piece.s1;
-    length[j] = std::sqrt(c[j] * c[j] + s[j] * s[j]);
-    unitC[j] = c[j] / length[j], unitS[j] = s[j] / length[j];
   }
-  sample(unitC, unitS, p);
-  for (int j = 0; j < kSamples; ++j)
-    for (int i = 0; i < D; ++i) p[j] *= length[j];
-  const int before = count;
+  normalize(c, s, unitC, unitS, length);
+  ++samplings_;
+  sample_(unitC, unitS, p);
+  scale(p, length);
+  const int before = count_;
   arcs(p, c, s, kArcs, level + 1);
-  if (count == before) {
-    const int i = smallest(piece.b);
+  if (count_ == before) {
+    const int i = piece.smallest();
     add((D - i) * piece.c0 + i * piece.c1, (D - i) * piece.s0 + i * piece.s1);
   }
 }
@@ -242,109 +295,112 @@ void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
 template <int D>
 template <class Sample>
 void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, const double* s, int arcCount, int level) {
-  const Tables& tables = Tables::get();
+  constexpr int kPairs = Tables::kPairs, kEven = Tables::kEven, kOdd = Tables::kOdd;
   constexpr double kWrap = D % 2 ? -1 : 1;  // p(-v) / p(v)
-  double q[3 * kSamples];                   // q[kSamples + j] = p_j, also beyond the half circle
+  const Tables& tables = Tables::get();
   double largest = 0;
+  for (int j = 0; j < kSamples; ++j) largest = std::max(largest, std::abs(p[j]));
+  if (!(largest > 0)) return;
+  double q[3 * kSamples + 1];  // q[kSamples + j] = p_j, also beyond the half circle; the largest is 1
   for (int j = 0; j < kSamples; ++j) {
-    q[kSamples + j] = p[j];
-    q[j] = q[2 * kSamples + j] = kWrap * p[j];
-    largest = std::max(largest, std::abs(p[j]));
+    q[kSamples + j] = p[j] / largest;
+    q[j] = q[2 * kSamples + j] = kWrap * q[kSamples + j];
   }
-  const double tau = kTau * largest;
+  q[3 * kSamples] = q[kSamples];
 
-  double b[D + 1][kPadded];  // column j: coefficients of the arc from sample j to j+1
-  double low[kPadded], high[kPadded];
-  const double* center = q + kSamples;
-  for (int j = 0; j < kSamples; ++j) b[0][j] = center[j], b[D][j] = center[j + 1];
-  double sum[Tables::kEven][kPadded], difference[Tables::kOdd][kPadded];
-  for (int m = 0; m < Tables::kOdd; ++m)
-    for (int j = 0; j < kSamples; ++j) {
-      sum[m][j] = center[j - m] + center[j + 1 + m];
-      difference[m][j] = center[j - m] - center[j + 1 + m];
+  // Row i: coefficient i of all arcs, arc j from sample j to j+1.
+  Pair b[D + 1][kPairs], sum[kEven][kPairs], difference[kOdd][kPairs];
+  for (int k = 0; k < kPairs; ++k) {
+    const double* center = q + kSamples + 2 * k;
+    b[0][k] = load(center), b[D][k] = load(center + 1);
+    for (int m = 0; m < kOdd; ++m) {
+      const Pair before = load(center - m), after = load(center + 1 + m);
+      sum[m][k] = before + after, difference[m][k] = before - after;
     }
-  if (Tables::kEven > Tables::kOdd)
-    for (int j = 0; j < kSamples; ++j) sum[Tables::kEven - 1][j] = center[j + 1 + Tables::kOdd];
-  for (int i = 1; i <= Tables::kRows; ++i) {
-    double symmetric[kPadded] = {}, antisymmetric[kPadded] = {};
-    for (int m = 0; m < Tables::kEven; ++m)
-      for (int j = 0; j < kSamples; ++j) symmetric[j] += tables.even[i - 1][m] * sum[m][j];
-    for (int m = 0; m < Tables::kOdd; ++m)
-      for (int j = 0; j < kSamples; ++j) antisymmetric[j] += tables.odd[i - 1][m] * difference[m][j];
-    for (int j = 0; j < kSamples; ++j) b[i][j] = symmetric[j] + antisymmetric[j], b[D - i][j] = symmetric[j] - antisymmetric[j];
+    if (kEven > kOdd) sum[kEven - 1][k] = load(center + 1 + kOdd);
   }
-  for (int j = 0; j < kSamples; ++j) low[j] = high[j] = b[0][j];
-  for (int i = 1; i <= D; ++i)
-    for (int j = 0; j < kSamples; ++j) {
-      low[j] = b[i][j] < low[j] ? b[i][j] : low[j];
-      high[j] = b[i][j] > high[j] ? b[i][j] : high[j];
-    }
+  for (int i = 1; i <= Tables::kRows; ++i) {
+    Pair symmetric[kPairs] = {}, antisymmetric[kPairs] = {};
+    for (int m = 0; m < kEven; ++m)
+      for (int k = 0; k < kPairs; ++k) symmetric[k] += tables.even[i - 1][m] * sum[m][k];
+    for (int m = 0; m < kOdd; ++m)
+      for (int k = 0; k < kPairs; ++k) antisymmetric[k] += tables.odd[i - 1][m] * difference[m][k];
+    for (int k = 0; k < kPairs; ++k) b[i][k] = symmetric[k] + antisymmetric[k], b[D - i][k] = symmetric[k] - antisymmetric[k];
+  }
+  double low[kPadded], high[kPadded];
+  for (int k = 0; k < kPairs; ++k) {
+    Pair least = b[0][k], greatest = b[0][k];
+    for (int i = 1; i <= D; ++i) least = min(least, b[i][k]), greatest = max(greatest, b[i][k]);
+    store(low + 2 * k, least), store(high + 2 * k, greatest);
+  }
 
   for (int j = 0; j < arcCount; ++j) {
-    if (low[j] >= tau || high[j] <= -tau) continue;  // no root
+    if (low[j] >= kTau || high[j] <= -kTau) continue;  // no root
     Piece arc;
-    for (int i = 0; i <= D; ++i) arc.b[i] = b[i][j];
+    for (int i = 0; i <= D; ++i) arc.b[i] = b[i][j / 2][j % 2];
     const int next = j + 1 < kSamples ? j + 1 : 0;
     const double sign = next ? 1 : -1;
     arc.c0 = c[j], arc.s0 = s[j], arc.c1 = sign * c[next], arc.s1 = sign * s[next], arc.depth = 0;
-    this->arc(arc, largest, level);
+    if (arc.signChanges() == 0 && !(level < kMaxLevel && arc.isBelow(kFaint))) {
+      // Perhaps a double root that rounding has lifted off zero: lower the form by the uncertainty.
+      const double shift = low[j] + high[j] > 0 ? kTau : -kTau;
+      for (double& coefficient : arc.b) coefficient -= shift;
+    }
+    pieces(arc, level);
   }
 }
 
 template <int D>
 template <class Sample>
-void BinaryFormRoots<D>::Search<Sample>::arc(Piece& arc, double largestSample, int level) {
-  const double tau = kTau * largestSample, faint = level < kMaxLevel ? kFaint * largestSample : 0;
-  if (variations(arc.b) == 0 && largest(arc.b) >= faint) {
-    // Perhaps a double root that rounding has lifted off zero: lower the form by the uncertainty.
-    double sum = 0;
-    for (double b : arc.b) sum += b;
-    for (double& b : arc.b) b -= std::copysign(tau, sum);
-  }
+void BinaryFormRoots<D>::Search<Sample>::pieces(const Piece& arc, int level) {
+  const bool maySample = level < kMaxLevel && samplings_ < kMaxSamplings;
   // Halving in order, depth first: the stack holds at most one piece of each depth.
   Piece stack[kMaxDepth + 2];
-  int size = 0;
-  stack[size++] = arc;
+  stack[0] = arc;
+  int size = 1;
   while (size > 0) {
-    const Piece piece = stack[--size];
-    const int changes = variations(piece.b);
-    const int least = smallest(piece.b);
-    if (changes == 0 && std::abs(piece.b[least]) >= tau) continue;
-    if (largest(piece.b) < faint && samplings > 0) {
+    const Piece& piece = stack[--size];
+    const unsigned changes = piece.signChanges();
+    if (changes == 0) {
+      const int i = piece.smallest();
+      if (!(std::abs(piece.b[i]) < kTau)) continue;
+      if (maySample && piece.isBelow(kFaint)) {
+        anew(piece, level);
+      } else if (piece.depth > 0) {
+        add((D - i) * piece.c0 + i * piece.c1, (D - i) * piece.s0 + i * piece.s1);
+      }
+    } else if (maySample && piece.isBelow(kFaint)) {
       anew(piece, level);
-    } else if (changes == 1) {
-      bool reversed = false;
-      const double t = simpleRoot(piece.b, reversed);
-      if (reversed)
-        add(t * piece.c0 + piece.c1, t * piece.s0 + piece.s1);
-      else
-        add(piece.c0 + t * piece.c1, piece.s0 + t * piece.s1);
-    } else if (changes == 0) {
-      if (piece.depth > 0) add((D - least) * piece.c0 + least * piece.c1, (D - least) * piece.s0 + least * piece.s1);
+    } else if ((changes & (changes - 1)) == 0) {
+      if (count_ < kMaxRoots) simple_.add(piece, changes, roots_ + count_++);
     } else if (piece.depth == kMaxDepth) {
       add(piece.c0 + piece.c1, piece.s0 + piece.s1);
     } else {
-      halve(piece, stack[size + 1], stack[size]);
+      piece.halve(stack[size + 1], stack[size]);
       size += 2;
     }
   }
 }
 
-// Sign changes of the sequence, zeros left out.
 template <int D>
-int BinaryFormRoots<D>::variations(const double* b) {
-  int count = 0;
-  double last = b[0];
-  for (int i = 1; i <= D; ++i) {
-    if (b[i] == 0) continue;
-    if (last != 0 && (b[i] < 0) != (last < 0)) ++count;
-    last = b[i];
-  }
-  return count;
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::add(double c, double s) {
+  if (count_ == kMaxRoots) return;
+  const double scale = 1 / std::sqrt(c * c + s * s);
+  roots_[count_++] = {c * scale, s * scale};
+}
+
+// ---------------------------------------------------------------------------------------------------------------------------
+
+template <int D>
+unsigned BinaryFormRoots<D>::Piece::signChanges() const {
+  unsigned negative = 0;
+  for (int i = 0; i <= D; ++i) negative |= static_cast<unsigned>(b[i] < 0) << i;
+  return (negative ^ (negative >> 1)) & ((1u << D) - 1);
 }
 
 template <int D>
-int BinaryFormRoots<D>::smallest(const double* b) {
+int BinaryFormRoots<D>::Piece::smallest() const {
   int best = 0;
   for (int i = 1; i <= D; ++i)
     if (std::abs(b[i]) < std::abs(b[best])) best = i;
@@ -352,51 +408,82 @@ int BinaryFormRoots<D>::smallest(const double* b) {
 }
 
 template <int D>
-double BinaryFormRoots<D>::largest(const double* b) {
-  double best = 0;
-  for (int i = 0; i <= D; ++i) best = std::max(best, std::abs(b[i]));
-  return best;
+bool BinaryFormRoots<D>::Piece::isBelow(double bound) const {
+  for (int i = 0; i <= D; ++i)
+    if (!(std::abs(b[i]) < bound)) return false;
+  return true;
 }
 
 template <int D>
-void BinaryFormRoots<D>::halve(const Piece& piece, Piece& left, Piece& right) {
-  math::halve<D>(piece.b, left.b, right.b);
-  left.c0 = piece.c0, left.s0 = piece.s0, right.c1 = piece.c1, right.s1 = piece.s1;
-  left.c1 = right.c0 = (piece.c0 + piece.c1) / 2, left.s1 = right.s0 = (piece.s0 + piece.s1) / 2;
-  left.depth = right.depth = piece.depth + 1;
+void BinaryFormRoots<D>::Piece::halve(Piece& left, Piece& right) const {
+  math::halve<D>(b, left.b, right.b);
+  left.c0 = c0, left.s0 = s0;
+  right.c1 = c1, right.s1 = s1;
+  left.c1 = right.c0 = (left.c0 + right.c1) / 2, left.s1 = right.s0 = (left.s0 + right.s1) / 2;
+  left.depth = right.depth = depth + 1;
 }
 
-// The only root of a piece, as t in [0, 1]: the direction is v0 + t v1, or t v0 + v1 if `reversed`. In t = x / (1-x) the form is
-// the polynomial sum_i C(D,i) b_i t^i.
+// With x = t / (1 + t) the direction is v0 + t v1 and the form is the polynomial sum_i C(D,i) b_i t^i, times (1 + t)^-D. A root
+// beyond t = 1 is sought from the other end.
 template <int D>
-double BinaryFormRoots<D>::simpleRoot(const double* b, bool& reversed) {
+void BinaryFormRoots<D>::SimpleRoots::add(const Piece& piece, unsigned signChanges, Direction* root) {
   const Tables& tables = Tables::get();
-  double a[D + 1];
-  double middle = 0;
-  for (int i = 0; i <= D; ++i) middle += a[i] = tables.binomial[i] * b[i];
-  int first = 0;
-  while (b[first] == 0) ++first;
-  reversed = (middle > 0) == (b[first] > 0);
-  if (reversed) std::reverse(a, a + D + 1);
-  // start: where the control polygon crosses zero
-  int i = first + 1;
-  while (i < D && (b[i] > 0) == (b[first] > 0)) ++i;
-  const double x = (i - b[i] / (b[i] - b[i - 1])) / D;
-  double t = reversed ? (1 - x) / x : x / (1 - x);
-  if (!(t <= 1)) t = 1;
-  double low = 0, high = 1;
-  const bool risingAtHigh = middle > 0;
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    double value = a[D], slope = 0;
-    for (int k = D - 1; k >= 0; --k) slope = slope * t + value, value = value * t + a[k];
-    ((value > 0) == risingAtHigh ? high : low) = t;
-    double next = t - value / slope;
-    if (!(next >= low && next <= high)) next = (low + high) / 2;
-    const double step = std::abs(next - t);
-    t = next;
-    if (step < 1e-6) break;
+  if (count_ == 2 * kPairs) refine();
+  const int lane = count_++;
+  double a[D + 1], middle = 0;
+  for (int i = 0; i <= D; ++i) middle += a[i] = tables.binomial[i] * piece.b[i];
+  int i = 0;  // the control polygon crosses zero between i and i+1
+  while (signChanges >> (i + 1)) ++i;
+  const double x = (i + piece.b[i] / (piece.b[i] - piece.b[i + 1])) / D;
+  const bool reversed = (middle < 0) == (piece.b[i] < 0);
+  const double t = reversed ? (1 - x) / x : x / (1 - x);
+  start_[lane] = t < 1 ? t : 1;
+  roots_[lane] = root;
+  c0_[lane] = reversed ? piece.c1 : piece.c0, s0_[lane] = reversed ? piece.s1 : piece.s0;
+  c1_[lane] = reversed ? piece.c0 : piece.c1, s1_[lane] = reversed ? piece.s0 : piece.s1;
+  // positive at t = 1
+  const double sign = middle < 0 ? -1 : 1;
+  for (int k = 0; k <= D; ++k) coefficients_[k][lane] = sign * a[reversed ? D - k : k];
+}
+
+// Halley's method in all lanes, each in a bracket of its own.
+template <int D>
+void BinaryFormRoots<D>::SimpleRoots::refine() {
+  if (count_ == 0) return;
+  for (int lane = count_; lane < 2 * kPairs; ++lane) {
+    start_[lane] = start_[0];
+    for (int k = 0; k <= D; ++k) coefficients_[k][lane] = coefficients_[k][0];
   }
-  return t;
+  Pair t[kPairs], low[kPairs], high[kPairs];
+  for (int j = 0; j < kPairs; ++j) t[j] = load(start_ + 2 * j), low[j] = Pair{0, 0}, high[j] = Pair{1, 1};
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    Pair value[kPairs], slope[kPairs], curvature[kPairs], step{0, 0};  // curvature: half the second derivative
+    for (int j = 0; j < kPairs; ++j) value[j] = load(coefficients_[D] + 2 * j), slope[j] = curvature[j] = Pair{0, 0};
+    for (int k = D - 1; k >= 0; --k)
+      for (int j = 0; j < kPairs; ++j) {
+        curvature[j] = curvature[j] * t[j] + slope[j];
+        slope[j] = slope[j] * t[j] + value[j];
+        value[j] = value[j] * t[j] + load(coefficients_[k] + 2 * j);
+      }
+    for (int j = 0; j < kPairs; ++j) {
+      high[j] = value[j] > 0 ? t[j] : high[j];
+      low[j] = value[j] > 0 ? low[j] : t[j];
+      Pair next = t[j] - value[j] * slope[j] / (slope[j] * slope[j] - value[j] * curvature[j]);
+      next = next >= low[j] ? next : (low[j] + high[j]) / 2;
+      next = next <= high[j] ? next : (low[j] + high[j]) / 2;
+      step = max(step, abs(next - t[j]));
+      t[j] = next;
+    }
+    if (step[0] < 1e-4 && step[1] < 1e-4) break;
+  }
+  double root[2 * kPairs];
+  for (int j = 0; j < kPairs; ++j) store(root + 2 * j, t[j]);
+  for (int lane = 0; lane < count_; ++lane) {
+    const double c = c0_[lane] + root[lane] * c1_[lane], s = s0_[lane] + root[lane] * s1_[lane];
+    const double scale = 1 / std::sqrt(c * c + s * s);
+    *roots_[lane] = {c * scale, s * scale};
+  }
+  count_ = 0;
 }
 
 }  // namespace math

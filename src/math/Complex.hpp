@@ -1,13 +1,10 @@
 // Complex numbers and image quantities for the inner loops of the solvers.
 #pragma once
 
-#include <cmath>
+#include "math/Pair.hpp"
 
 namespace hybridgv {
 namespace math {
-
-// Two numbers in one SSE2 register: +, -, *, / work lane by lane, also with a double.
-using Pair = double __attribute__((vector_size(16)));
 
 // Complex number without std::complex's treatment of infinities, which costs a branch in every product.
 struct Complex {

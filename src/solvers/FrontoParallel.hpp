@@ -68,7 +68,7 @@ struct FrontoParallelPoint {
 // Is the image triangle nearly similar to the triangle of the points, with the orientation seen from `side`?
 inline bool isFrontoParallel(const ThreePointFrame& frame, double side) {
   const ImagePoint difference = frame.D1 + side * timesI(frame.D2);
-  return re(difference, difference) < 0.04 * re(frame.D1, frame.D1);
+  return re(difference, difference) < 0.01 * re(frame.D1, frame.D1);
 }
 
 // Gauss-Newton from u = v = 0 for the equations of the three points and one complex equation more,

@@ -9,9 +9,6 @@ namespace hybridgv {
 namespace solvers {
 namespace {
 
-using math::Complex;
-using math::Pair;
-
 // The ray X3 + c + beta q meets the line of sight through the image point p: im(conj(E(c)) E(q)) = 0.
 //
 // With m = q x c, q_r = q . e_rho and so on, p' = p3 - p, delta = depth of X3 / rho and K = im(p', zr) - im(p3, p) this is
@@ -29,7 +26,7 @@ class RayEquation {
       : frame_(frame),
         p_(frame.image(ray.u, ray.v)),
         difference_(frame.p3 - p_),
-        product_(frame, difference_),
+        normalProduct_(frame, difference_),
         q_(frame.direction(ray.direction)) {
     origin_ = frame.fromX3(ray.centre);
     c_ = origin_ - q_.dot(origin_) * q_;
@@ -37,31 +34,22 @@ class RayEquation {
     area_ = im(frame.p3, p_);
   }
 
-  double product(const Sheets& at, const Sheet<Pair>& sheet) const {
-    const Pair factor = signProduct(at, sheet);
-    const double w = at.w2 * at.w2;
-    return (w * factor[0]) * (w * factor[1]);
+  template <class T>
+  T product(const Sheets<T>& at, const Sheet<T>& first, const Sheet<T>& second) const {
+    const T w = at.w2 * at.w2;
+    return (w * signProduct(at, first)) * (w * signProduct(at, second));
   }
-  double norm(const Sheets& at, const Sheet<Complex>& sheet) const {
+  double norm(const Sheets<double>& at, const Sheet<Complex>& sheet) const {
     return squaredNorm((at.w2 * at.w2) * signProduct(at, sheet));
   }
 
-  Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double rho) const {
-    const Along along(*this, at);
+  Residual residual(const Sheets<double>& at, const Sheet<double>& sheet, double n3, double rho) const {
+    const Polar<double> q = at.polar(q_), m = at.polar(m_);
     const double K = im(difference_, sheet.zr) - area_;
-    const double terms[10] = {rho * m_[2] * im(p_, sheet.zf),
-                              -rho * m_[2] * sheet.J,
-                              rho * sheet.delta * along.qr * K,
-                              rho * sheet.delta * along.qp * im(difference_, sheet.zf),
-                              along.mr * sheet.R,
-                              -along.mr * sheet.S,
-                              -along.mr * re(p_, sheet.zr),
-                              -along.mp * re(p_, sheet.zf),
-                              q_[2] * sheet.delta * re(difference_, sheet.zf),
-                              q_[2] * sheet.delta * n3 * K};
-    Residual result{0, 0};
-    for (double term : terms) result.value += term, result.magnitude += std::abs(term);
-    return result;
+    return sumOfTerms({rho * m_[2] * im(p_, sheet.zf), -rho * m_[2] * sheet.J, rho * sheet.delta * q.r * K,
+                       rho * sheet.delta * q.p * im(difference_, sheet.zf), m.r * sheet.R, -m.r * sheet.S,
+                       -m.r * re(p_, sheet.zr), -m.p * re(p_, sheet.zf), q_[2] * sheet.delta * re(difference_, sheet.zf),
+                       q_[2] * sheet.delta * n3 * K});
   }
 
   WithGradient<double> constraint(const SurfacePoint& point) const {
@@ -90,34 +78,29 @@ class RayEquation {
   }
 
  private:
-  // Components of q and m along e_rho and e_phi.
-  struct Along {
-    double qr, qp, mr, mp;
-    Along(const RayEquation& equation, const Sheets& at)
-        : qr(at.c * equation.q_[0] + at.s * equation.q_[1]),
-          qp(at.c * equation.q_[1] - at.s * equation.q_[0]),
-          mr(at.c * equation.m_[0] + at.s * equation.m_[1]),
-          mp(at.c * equation.m_[1] - at.s * equation.m_[0]) {}
-  };
-
-  // The product over both signs of rho.
-  template <class T>
-  T signProduct(const Sheets& at, const Sheet<T>& sheet) const {
-    const Along along(*this, at);
+  // The product over both signs of rho: odd^2 - (n3 odd)^2 - even^2.
+  template <class A, class T>
+  T signProduct(const Sheets<A>& at, const Sheet<T>& sheet) const {
+    const Polar<A> q = at.polar(q_), m = at.polar(m_);
     const T K = im(difference_, sheet.zr) - area_;
-    const T odd = m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (along.qr * K + along.qp * im(difference_, sheet.zf));
-    const T n3DeltaK = product_.valid ? product_.evaluate(at, sheet) : sheet.n3() * sheet.delta * K;
-    const T oddN3 = product_.valid ? m_[2] * (re(p_, sheet.zr) - sheet.R) + sheet.delta * (along.qp * re(difference_, sheet.zr)) +
-                                         along.qr * n3DeltaK
-                                   : sheet.n3() * odd;
-    const T even = along.mr * (sheet.R - sheet.S - re(p_, sheet.zr)) - along.mp * re(p_, sheet.zf) +
+    const T odd = m_[2] * (im(p_, sheet.zf) - sheet.J) + sheet.delta * (q.r * K + q.p * im(difference_, sheet.zf));
+    T n3DeltaK, n3Odd;
+    if (normalProduct_.isAccurate) {
+      n3DeltaK = normalProduct_.evaluate(at, sheet);
+      n3Odd = m_[2] * (re(p_, sheet.zr) - sheet.R) + q.p * (sheet.delta * re(difference_, sheet.zr)) + q.r * n3DeltaK;
+    } else {
+      const T n3 = sheet.n3();
+      n3DeltaK = n3 * sheet.delta * K;
+      n3Odd = n3 * odd;
+    }
+    const T even = m.r * (sheet.R - sheet.S - re(p_, sheet.zr)) - m.p * re(p_, sheet.zf) +
                    q_[2] * (sheet.delta * re(difference_, sheet.zf) + n3DeltaK);
-    return odd * odd - oddN3 * oddN3 - even * even;
+    return odd * odd - n3Odd * n3Odd - even * even;
   }
 
   const ThreePointFrame& frame_;
   ImagePoint p_, difference_;
-  NormalProduct product_;
+  NormalProduct normalProduct_;
   Eigen::Vector3d q_;
   Eigen::Vector3d origin_, c_;  // from X3: the ray's centre, and its point nearest to X3
   Eigen::Vector3d m_;

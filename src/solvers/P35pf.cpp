@@ -9,9 +9,6 @@ namespace hybridgv {
 namespace solvers {
 namespace {
 
-using math::Complex;
-using math::Pair;
-
 // The point X3 + y has the image coordinate p.x: Re E(y) = 0.
 //
 // With y_r = y . e_rho and so on, p' = p3 - p, delta = depth of X3 / rho this is even + rho odd = 0,
@@ -28,35 +25,24 @@ class CoordinateEquation {
   CoordinateEquation(const ThreePointFrame& frame, const PointMatch& match)
       : frame_(frame), p_(frame.image(match.u, match.v)), difference_(frame.p3 - p_), y_(frame.fromX3(match.point)) {}
 
-  double product(const Sheets& at, const Sheet<Pair>& sheet) const {
-    const double F = im(at.f1, at.f0);
-    const Pair n3 = sheet.n3(), nuF = re(at.f1, sheet.zr);
+  template <class T>
+  T product(const Sheets<T>& at, const Sheet<T>& first, const Sheet<T>& second) const {
+    const T F = im(at.f1, at.f0), one = T{} + 1;
+    const T n3First = first.n3(), n3Second = second.n3(), difference = math::abs(n3First) - math::abs(n3Second);
     // The factor F^2 goes to the root with the larger |n3|.
-    const bool first = std::abs(n3[0]) > std::abs(n3[1]);
-    const Pair weight = first ? Pair{F, 1} : Pair{1, F};
-    const Pair nu = first ? Pair{nuF[0], n3[1]} : Pair{n3[0], nuF[1]};
-    const Pair odd = oddPart(at, sheet);
-    const Pair even = y_[2] * (nu * (sheet.zr.x - p_.x) - weight * sheet.zf.y);
-    const Pair factor = (weight * weight - nu * nu) * (odd * odd) - even * even;
-    return (at.w2 * factor[0]) * (at.w2 * factor[1]);
+    const T factor1 = signProduct(at, first, difference > T{} ? F : one, difference > T{} ? re(at.f1, first.zr) : n3First);
+    const T factor2 = signProduct(at, second, difference > T{} ? one : F, difference > T{} ? n3Second : re(at.f1, second.zr));
+    return (at.w2 * factor1) * (at.w2 * factor2);
   }
-
-  double norm(const Sheets& at, const Sheet<Complex>& sheet) const {
+  double norm(const Sheets<double>& at, const Sheet<Complex>& sheet) const {
     const double F = im(at.f1, at.f0);
-    const Complex nu = re(at.f1, sheet.zr);
-    const Complex odd = oddPart(at, sheet);
-    const Complex even = y_[2] * (nu * (sheet.zr.x - p_.x) - F * sheet.zf.y);
-    return squaredNorm((at.w2 / F) * ((F * F - nu * nu) * (odd * odd) - even * even));
+    return squaredNorm((at.w2 / F) * signProduct(at, sheet, F, re(at.f1, sheet.zr)));
   }
 
-  Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double rho) const {
-    const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
-    const double terms[7] = {
-        rho * sheet.zr.x * yr,   rho * sheet.zf.x * yp, -rho * p_.x * yr,   rho * difference_.x * sheet.delta,
-        y_[2] * n3 * sheet.zr.x, -y_[2] * n3 * p_.x,    -y_[2] * sheet.zf.y};
-    Residual result{0, 0};
-    for (double term : terms) result.value += term, result.magnitude += std::abs(term);
-    return result;
+  Residual residual(const Sheets<double>& at, const Sheet<double>& sheet, double n3, double rho) const {
+    const Polar<double> y = at.polar(y_);
+    return sumOfTerms({rho * sheet.zr.x * y.r, rho * sheet.zf.x * y.p, -rho * p_.x * y.r, rho * difference_.x * sheet.delta,
+                       y_[2] * n3 * sheet.zr.x, -y_[2] * n3 * p_.x, -y_[2] * sheet.zf.y});
   }
 
   WithGradient<double> constraint(const SurfacePoint& point) const {
@@ -78,10 +64,13 @@ class CoordinateEquation {
   }
 
  private:
-  template <class T>
-  T oddPart(const Sheets& at, const Sheet<T>& sheet) const {
-    const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
-    return yr * (sheet.zr.x - p_.x) + yp * sheet.zf.x + difference_.x * sheet.delta;
+  // F^2 times the product over both signs of rho, nu = F n3.
+  template <class A, class T, class F>
+  T signProduct(const Sheets<A>& at, const Sheet<T>& sheet, const F& f, const T& nu) const {
+    const Polar<A> y = at.polar(y_);
+    const T odd = y.r * (sheet.zr.x - p_.x) + y.p * sheet.zf.x + difference_.x * sheet.delta;
+    const T even = y_[2] * (nu * (sheet.zr.x - p_.x) - f * sheet.zf.y);
+    return (f * f - nu * nu) * (odd * odd) - even * even;
   }
 
   const ThreePointFrame& frame_;

@@ -9,9 +9,6 @@ namespace hybridgv {
 namespace solvers {
 namespace {
 
-using math::Complex;
-using math::Pair;
-
 // The image of the line through X4 = X3 + y along the normal e3 of the plane of the other points passes through p:
 // im(conj(E(y)) E(e3)) = 0. The position of X4 along that line, the eighth equation, only ranks the solutions.
 //
@@ -28,29 +25,22 @@ class NormalEquation {
       : frame_(frame),
         p_(frame.image(match.u, match.v)),
         difference_(frame.p3 - p_),
-        product_(frame, difference_),
+        normalProduct_(frame, difference_),
         y_(frame.fromX3(match.point)) {
     area_ = im(frame.p3, p_);
   }
 
-  double product(const Sheets& at, const Sheet<Pair>& sheet) const {
-    const Pair value = equation(at, sheet);
-    return (at.w2 * value[0]) * (at.w2 * value[1]);
+  template <class T>
+  T product(const Sheets<T>& at, const Sheet<T>& first, const Sheet<T>& second) const {
+    return (at.w2 * value(at, first)) * (at.w2 * value(at, second));
   }
-  double norm(const Sheets& at, const Sheet<Complex>& sheet) const { return squaredNorm(at.w2 * equation(at, sheet)); }
+  double norm(const Sheets<double>& at, const Sheet<Complex>& sheet) const { return squaredNorm(at.w2 * value(at, sheet)); }
 
-  Residual residual(const Sheets& at, const Sheet<double>& sheet, double n3, double) const {
-    const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
+  Residual residual(const Sheets<double>& at, const Sheet<double>& sheet, double n3, double) const {
+    const Polar<double> y = at.polar(y_);
     const double K = im(difference_, sheet.zr) - area_;
-    const double terms[6] = {yp * sheet.R,
-                             -yp * sheet.S,
-                             -yp * re(p_, sheet.zr),
-                             yr * re(p_, sheet.zf),
-                             -sheet.delta * re(difference_, sheet.zf),
-                             -sheet.delta * n3 * K};
-    Residual result{0, 0};
-    for (double term : terms) result.value += term, result.magnitude += std::abs(term);
-    return result;
+    return sumOfTerms({y.p * sheet.R, -y.p * sheet.S, -y.p * re(p_, sheet.zr), y.r * re(p_, sheet.zf),
+                       -sheet.delta * re(difference_, sheet.zf), -sheet.delta * n3 * K});
   }
 
   WithGradient<double> constraint(const SurfacePoint& point) const {
@@ -78,18 +68,18 @@ class NormalEquation {
   }
 
  private:
-  template <class T>
-  T equation(const Sheets& at, const Sheet<T>& sheet) const {
-    const double yr = at.c * y_[0] + at.s * y_[1], yp = at.c * y_[1] - at.s * y_[0];
-    const T n3DeltaK =
-        product_.valid ? product_.evaluate(at, sheet) : sheet.n3() * sheet.delta * (im(difference_, sheet.zr) - area_);
-    return yp * (sheet.R - sheet.S - re(p_, sheet.zr)) + yr * re(p_, sheet.zf) - sheet.delta * re(difference_, sheet.zf) -
+  template <class A, class T>
+  T value(const Sheets<A>& at, const Sheet<T>& sheet) const {
+    const Polar<A> y = at.polar(y_);
+    const T n3DeltaK = normalProduct_.isAccurate ? normalProduct_.evaluate(at, sheet)
+                                                 : sheet.n3() * sheet.delta * (im(difference_, sheet.zr) - area_);
+    return y.p * (sheet.R - sheet.S - re(p_, sheet.zr)) + y.r * re(p_, sheet.zf) - sheet.delta * re(difference_, sheet.zf) -
            n3DeltaK;
   }
 
   const ThreePointFrame& frame_;
   ImagePoint p_, difference_;
-  NormalProduct product_;
+  NormalProduct normalProduct_;
   Eigen::Vector3d y_;  // from X3
   double area_;
 };

@@ -93,7 +93,6 @@ inline WithGradient<double> area(const WithGradient<ImagePoint>& a, const WithGr
 // Solves zr = -i n3 zf together with `constraint`(point) = 0, a WithGradient<double>. False if the iteration does not converge.
 template <class Constraint>
 bool refine(SurfacePoint& point, const ThreePointFrame& frame, const Constraint& constraint) {
-  double last = 1e300;
   for (int iteration = 0; iteration < 12; ++iteration) {
     point.update(frame);
     const WithGradient<ImagePoint> e = point.threePoints();
@@ -108,11 +107,10 @@ bool refine(SurfacePoint& point, const ThreePointFrame& frame, const Constraint&
     if (!(std::abs(dPhi) < 1) || !(std::abs(dTheta) < 1) || !std::isfinite(dEta)) return false;
     point.move(dPhi, dTheta, dEta);
     const double step = std::abs(dPhi) + std::abs(dTheta) + std::abs(dEta) / (1 + std::abs(point.eta));
-    if (step < 1e-9 || (step < 1e-7 && step > last / 2)) {
+    if (step < 1e-7) {
       point.update(frame);
       return true;
     }
-    last = step;
   }
   return false;
 }

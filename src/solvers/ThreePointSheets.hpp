@@ -15,16 +15,26 @@
 namespace hybridgv {
 namespace solvers {
 
+using math::Complex;
+using math::Pair;
 using math::Planar;
 
-// Everything at one angle.
-struct Sheets {
-  double c, s;
-  ImagePoint r0, r1, f0, f1;
-  double w0, w1, w2;  // W = w2 eta^2 + w1 eta + w0
+// Components of a vector of the frame along e_rho and e_phi.
+template <class T>
+struct Polar {
+  T r, p;
+  Polar(const Eigen::Vector3d& v, const T& c, const T& s) : r(c * v[0] + s * v[1]), p(c * v[1] - s * v[0]) {}
+};
 
-  Sheets(const ThreePointFrame& frame, double cosine, double sine) : c(cosine), s(sine) {
-    const double cc = c * c, cs = c * s, ss = s * s;
+// Everything at one angle, or at two (T = Pair).
+template <class T>
+struct Sheets {
+  T c, s;
+  Planar<T> r0, r1, f0, f1;
+  T w0, w1, w2;  // W = w2 eta^2 + w1 eta + w0
+
+  Sheets(const ThreePointFrame& frame, const T& cosine, const T& sine) : c(cosine), s(sine) {
+    const T cc = c * c, cs = c * s, ss = s * s;
     r0 = cc * frame.A11 + cs * frame.A21 + ss * frame.p3;
     f0 = cc * frame.A21 - cs * (frame.A11 - frame.p3);
     r1 = c * frame.D1 + s * frame.D2;
@@ -32,28 +42,35 @@ struct Sheets {
     w0 = re(r0, f0);
     w1 = re(r0, f1) + re(r1, f0);
     w2 = re(r1, f1);
-    const double least = 1e-30 * std::abs(w1);
-    if (std::abs(w2) < least) w2 = least;
+    const T least = 1e-30 * math::abs(w1);
+    w2 = math::abs(w2) < least ? least : w2;
   }
 
-  double discriminant() const { return w1 * w1 - 4 * w2 * w0; }
+  Polar<T> polar(const Eigen::Vector3d& v) const { return {v, c, s}; }
+  T discriminant() const { return w1 * w1 - 4 * w2 * w0; }
 
-  // Both real roots eta, without cancellation.
-  math::Pair realRoots(double discriminant) const {
-    const double b = -(w1 + std::copysign(std::sqrt(discriminant), w1)) / 2;
-    if (b == 0) return math::Pair{0, 0};
-    return math::Pair{b / w2, w0 / b};
+  // Both roots eta, without cancellation. A negative discriminant counts as zero.
+  void realRoots(const T& discriminant, T& first, T& second) const {
+    const T zero{}, tiny = zero + 1e-300, root = math::sqrt(math::max(discriminant, zero));
+    const T b = -0.5 * (w1 > zero ? w1 + root : w1 - root);
+    first = b / w2, second = w0 / (b == zero ? tiny : b);
+  }
+  // One of the conjugate roots for a negative discriminant.
+  Complex complexRoot(double discriminant) const {
+    const double scale = 0.5 / w2;
+    return {-w1 * scale, std::sqrt(-discriminant) * scale};
   }
 };
 
-// One eta (or two, T = Pair; or a complex one) over an angle.
+// One root eta over an angle (T = Pair: over two angles; T = Complex: a complex root).
 template <class T>
 struct Sheet {
   T eta, delta;  // delta = eta - s h: depth of X3, divided by rho
   Planar<T> zr, zf;
   T S, R, J;
 
-  Sheet(const ThreePointFrame& frame, const Sheets& at, const T& root)
+  template <class A>
+  Sheet(const ThreePointFrame& frame, const Sheets<A>& at, const T& root)
       : eta(root),
         delta(root - at.s * frame.h),
         zr(at.r0 + root * at.r1),
@@ -67,30 +84,30 @@ struct Sheet {
 };
 
 template <>
-inline math::Complex Sheet<math::Complex>::n3() const {
+inline Complex Sheet<Complex>::n3() const {
   return squaredNorm(S) > squaredNorm(J) ? J / S : R / J;
 }
 
-// The product n3 delta K of an equation with the image point p, p' = p3 - p, K = im(p', zr) - im(p3, p). On W(eta) = 0 it is a
-// polynomial, without the poles of n3:
+// The product n3 delta K of an equation with the image point p, p' = p3 - p, K = im(p', zr) - im(p3, p). Where W(eta) = 0 it is
+// the polynomial
 //     -(re(D1, zr) (c k11 + s k21 + k1 eta) + k2 re(zr, c A21 + s (p3 - A11) + eta D2)) / im(D2, D1),
-// k11 = im(p', A11 - p3), k21 = im(p', A21), k1 = im(p', D1), k2 = im(p', D2). Inaccurate where the image points are nearly
-// collinear, im(D2, D1) = 0.
+//     k11 = im(p', A11 - p3), k21 = im(p', A21), k1 = im(p', D1), k2 = im(p', D2),
+// without the poles of n3; but inaccurate where the image points are nearly collinear, im(D2, D1) = 0.
 struct NormalProduct {
   const ThreePointFrame& frame;
   double k11, k21, k1, k2;
-  bool valid;
+  bool isAccurate;
 
   NormalProduct(const ThreePointFrame& f, const ImagePoint& difference) : frame(f) {
     const double area = im(frame.D2, frame.D1);
-    valid = area * area > 1e-6 * re(frame.D1, frame.D1) * re(frame.D2, frame.D2);
+    isAccurate = area * area > 1e-6 * re(frame.D1, frame.D1) * re(frame.D2, frame.D2);
     const ImagePoint scaled = (-1 / area) * difference;
     k11 = im(scaled, frame.A11 - frame.p3), k21 = im(scaled, frame.A21);
     k1 = im(scaled, frame.D1), k2 = im(scaled, frame.D2);
   }
 
-  template <class T>
-  T evaluate(const Sheets& at, const Sheet<T>& sheet) const {
+  template <class A, class T>
+  T evaluate(const Sheets<A>& at, const Sheet<T>& sheet) const {
     const Planar<T> y = (at.c * frame.A21 + at.s * (frame.p3 - frame.A11)) + sheet.eta * frame.D2;
     return re(frame.D1, sheet.zr) * ((at.c * k11 + at.s * k21) + k1 * sheet.eta) + k2 * re(sheet.zr, y);
   }

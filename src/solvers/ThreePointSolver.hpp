@@ -15,9 +15,9 @@ namespace solvers {
 // The additional equation:
 //
 //   static constexpr int kDegree;              degree of the form p
-//   double product(sheets, Sheet<Pair>)        p at an angle with two real eta
-//   double norm(sheets, Sheet<Complex>)        p at an angle with a conjugate pair of eta
-//   Residual residual(sheets, Sheet<double>, n3, rho)
+//   T product(Sheets<T>, Sheet<T>, Sheet<T>)   p at an angle (T = Pair: at two) with two real eta
+//   double norm(Sheets<double>, Sheet<Complex>)    p at an angle with a conjugate pair of eta
+//   Residual residual(Sheets<double>, Sheet<double>, n3, rho)
 //   WithGradient<double> constraint(SurfacePoint)
 //   double frontoParallelStart(side)           d for u = v = 0
 //   Row frontoParallelConstraint(FrontoParallelPoint)
@@ -28,6 +28,13 @@ namespace solvers {
 struct Residual {
   double value, magnitude;
 };
+
+template <std::size_t N>
+Residual sumOfTerms(const double (&terms)[N]) {
+  Residual result{0, 0};
+  for (double term : terms) result.value += term, result.magnitude += std::abs(term);
+  return result;
+}
 
 template <class Equation>
 class ThreePointSolver {
@@ -42,7 +49,7 @@ class ThreePointSolver {
     math::Direction roots[Roots::kMaxRoots];
     const int count = Roots::findSampled(
         [this](const double* c, const double* s, double* p) {
-          for (int j = 0; j < Roots::kSamples; ++j) p[j] = sample(c[j], s[j]);
+          for (int j = 0; j < Roots::kPadded; j += 2) samplePair(c + j, s + j, p + j);
         },
         roots);
     for (int i = 0; i < count; ++i) lift(roots[i]);
@@ -54,23 +61,32 @@ class ThreePointSolver {
     double n3, rho, eta, quality;
   };
 
-  double sample(double c, double s) const {
-    const Sheets at(frame_, c, s);
-    const double discriminant = at.discriminant();
-    if (discriminant >= 0) return equation_.product(at, Sheet<math::Pair>(frame_, at, at.realRoots(discriminant)));
-    const math::Complex eta{-at.w1 / (2 * at.w2), std::sqrt(-discriminant) / (2 * at.w2)};
-    return equation_.norm(at, Sheet<math::Complex>(frame_, at, eta));
+  // The form at two directions.
+  void samplePair(const double* c, const double* s, double* p) const {
+    const Sheets<Pair> at(frame_, math::load(c), math::load(s));
+    const Pair discriminant = at.discriminant();
+    Pair first, second;
+    at.realRoots(discriminant, first, second);
+    math::store(p, equation_.product(at, Sheet<Pair>(frame_, at, first), Sheet<Pair>(frame_, at, second)));
+    for (int lane = 0; lane < 2; ++lane)
+      if (discriminant[lane] < 0) p[lane] = sampleComplex(c[lane], s[lane]);
+  }
+
+  double sampleComplex(double c, double s) const {
+    const Sheets<double> at(frame_, c, s);
+    return equation_.norm(at, Sheet<Complex>(frame_, at, at.complexRoot(at.discriminant())));
   }
 
   void lift(const math::Direction& root) {
-    const Sheets at(frame_, root.c, root.s);
+    const Sheets<double> at(frame_, root.c, root.s);
     const double discriminant = at.discriminant();
     Candidate candidates[2];
     int count = 0;
     if (discriminant > 0) {
-      const math::Pair eta = at.realRoots(discriminant);
-      count += makeCandidate(at, eta[0], candidates[count]);
-      count += makeCandidate(at, eta[1], candidates[count]);
+      double first, second;
+      at.realRoots(discriminant, first, second);
+      count += makeCandidate(at, first, candidates[count]);
+      count += makeCandidate(at, second, candidates[count]);
     } else {
       count += makeCandidate(at, -at.w1 / (2 * at.w2), candidates[count]);
     }
@@ -83,7 +99,7 @@ class ThreePointSolver {
     }
   }
 
-  bool makeCandidate(const Sheets& at, double eta, Candidate& candidate) const {
+  bool makeCandidate(const Sheets<double>& at, double eta, Candidate& candidate) const {
     const double depth1 = eta + at.c * frame_.a1, depth2 = eta + at.c * frame_.b1, depth3 = eta - at.s * frame_.h;
     const bool allPositive = depth1 > 0 && depth2 > 0 && depth3 > 0, allNegative = depth1 < 0 && depth2 < 0 && depth3 < 0;
     if (!allPositive && !allNegative) return false;
@@ -120,7 +136,7 @@ class ThreePointSolver {
   }
 
   // A candidate whose equation is violated by more than this share of its terms is on the wrong sheet.
-  static constexpr double kCandidateTolerance = 0.05;
+  static constexpr double kCandidateTolerance = 1e-3;
 
   const ThreePointFrame& frame_;
   const Equation& equation_;
