@@ -42,10 +42,9 @@ HYBRIDGV_EXPORT double reprojectionError(const FocalPose& pose, const Eigen::Vec
 /// A bearing vector that does not point forwards (z <= 0, omnidirectional cameras) has no pixel in a pinhole image: its error is
 /// measured in the tangent plane of the unit sphere, with g pixels per radian; D then has length 1 and a1, a2 span that plane.
 ///
-/// \return pixels; infinite if the two viewing rays do not meet in front of both cameras (where the closest points of the two
-/// lines
-///         decide; parallel rays do not meet), if the query lies in the rig camera's centre, or if anything is not finite. Never
-///         NaN.
+/// \return pixels; infinite if the two viewing rays do not meet in front of both cameras (where the closest points of the
+///         two lines decide; parallel rays do not meet), if the query lies in the rig camera's centre, or if anything is not
+///         finite. Never NaN.
 HYBRIDGV_EXPORT double sampsonError(const FocalPose& pose, const Eigen::Vector3d& imagePoint,
                                     const Eigen::Vector3d& bearingVector, const Eigen::Vector3d& camOffset,
                                     const Eigen::Matrix3d& camRotation, double rigFocalLength);

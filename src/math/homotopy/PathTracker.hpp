@@ -4,16 +4,14 @@
 // step that also bounds the predictor's error, and a second Newton step that gives the tangent at the new point as well:
 //
 //   predictor   Pade approximant [2/1] of every component through the last two points and their tangents (a cubic polynomial
-//   where
-//               the approximant has a pole nearby, a straight line at the start)
+//               where the approximant has a pole nearby, a straight line at the start)
 //   accepted    if both Newton steps are small: the second one tells that the first one converged
 //   step size   proportional to the 4th root of the first Newton step, the order of the predictor's error
 //
 // A System gives
 //   kUnknowns      N
 //   kAbsolute      the first kAbsolute unknowns get Newton steps dx, measured relative to sqrt(1 + |x|^2); the others, which
-//   cannot
-//                  vanish, get relative steps dx/x: multiplicative unknowns are better scaled so
+//                  cannot vanish, get relative steps dx/x: multiplicative unknowns are better scaled so
 //   Homotopy<Scalar>, Data<V>, dataAt(homotopy, t, data)
 //                  how the coefficients of F depend on t, and their values at one t per lane
 //   evaluate<derivative>(homotopy, t, data, x, rows)

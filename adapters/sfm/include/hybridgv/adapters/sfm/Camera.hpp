@@ -53,13 +53,13 @@ HYBRIDGV_EXPORT double focalLength(const Camera& camera);
 ///
 /// \param x, y  pixel as stored in the map [px]
 /// \return (u, v, 1) with (u, v) = fx * (X/Z, Y/Z) for the point (X, Y, Z) seen there: undistorted pixels relative to the
-/// principal
-///         point. Where fy differs from fx, v is stretched by fx/fy, so that pixels are square and fx is the one focal length.
-///         Empty if there is no such point: a distortion with k1 < 0 maps the ring of radius r_max (where the distorted radius
-///         stops to grow) farthest out, and a pixel beyond its image is the image of nothing. Of several points that the formula
-///         maps onto the same pixel, the one inside r_max is returned. The result satisfies the equation above to 1e-12 * fx.
+///         principal point. Where fy differs from fx, v is stretched by fx/fy, so that pixels are square and fx is the one focal
+///         length. Empty if there is no such point: a distortion with k1 < 0 maps the ring of radius r_max (where the distorted
+///         radius stops to grow) farthest out, and a pixel beyond its image is the image of nothing. Of several points that the
+///         formula maps onto the same pixel, the one inside r_max is returned. The result satisfies the equation above to
+///         1e-12 * fx.
 /// \throws std::invalid_argument for a wrong number of parameters, a focal length that is not positive, values that are not
-/// finite
+///         finite
 HYBRIDGV_EXPORT std::optional<Eigen::Vector3d> undistort(const Camera& camera, double x, double y);
 
 /// The inverse of undistort().

@@ -59,8 +59,7 @@ struct LocalizationProblem {
 ///
 /// \param imageIndex  index into model.images (not the id in the file)
 /// \throws std::invalid_argument for an index out of range, an image that is not registered, a model with invalid indices,
-/// options
-///         that are negative or not finite
+///         options that are negative or not finite
 HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
                                                             const LocalizationProblemOptions& options = {});
 
