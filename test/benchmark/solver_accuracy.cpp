@@ -5,7 +5,8 @@
 // One row per solver (with --awkward: per solver and awkward case): the share of problems whose truth is recovered to 1e-6
 // (rotation and relative focal length), the share of failures (nearest solution off by more than 1e-3), median and 99 % quantile
 // of log10 of the error, mean number of solutions, solutions that violate their equations by more than 1e-5 px, solutions
-// returned twice, and the mean time in microseconds (problems are not repeated, so caches are cold).
+// returned twice, the share of problems whose set of solutions is known to be complete (where the solver can tell), and the mean
+// time in microseconds (problems are not repeated, so caches are cold).
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -15,8 +16,10 @@
 #include <vector>
 
 #include "AwkwardProblems.hpp"
+#include "H51fScenes.hpp"
 #include "MinimalProblem.hpp"
 #include "OneCentreProblems.hpp"
+#include "solvers/h51f/solve.hpp"
 #include "solvers/solvers.hpp"
 
 namespace {
@@ -29,7 +32,28 @@ struct Row {
   solvers::SolveFunction solve;
   std::size_t exactPoints;  // points whose reprojection error must vanish
   std::function<MinimalProblem(Random&)> makeProblem;
+  bool tellsCompleteness = false;  // H51f of several centres, solved by the function that counts the ends of its paths
 };
+
+int solveH51f(const MinimalProblem& problem, FocalPose* poses, bool* complete) {
+  h51f::EndPoints ends;
+  const int found = h51f::solve(math::simdLevel(), problem.rays.data(), problem.points[0], poses, &ends);
+  *complete = ends.complete();
+  return found;
+}
+
+// H51f with rays of several centres: the usual scene, or all the others.
+void addH51fRows(bool awkward, std::vector<Row>* rows) {
+  for (const RaysPerCamera& pattern : h51fPatterns()) {
+    const std::string name = "h51f " + nameOf(pattern);
+    if (!awkward)
+      rows->push_back({name, nullptr, 1, [=](Random& random) { return makeMinimalProblem(random, pattern, 1); }, true});
+    else
+      for (const H51fScene& scene : h51fScenes())
+        rows->push_back(
+            {name + ", " + scene.name, nullptr, 1, [=](Random& random) { return scene.make(random, pattern); }, true});
+  }
+}
 
 std::vector<Row> rows(bool awkward) {
   const struct {
@@ -55,6 +79,7 @@ std::vector<Row> rows(bool awkward) {
         rows.push_back({std::string(solver.name) + ", " + c.name, solver.solve, solver.exactPoints,
                         [=](Random& random) { return makeAwkwardProblem(random, c, solver.raysPerCamera, solver.points); }});
   }
+  addH51fRows(awkward, &rows);
   if (awkward)
     for (OneCentreKind kind : {OneCentreKind::FiveRaysOnePoint, OneCentreKind::SixRays})
       for (const OneCentreAwkwardCase& c : oneCentreAwkwardCases()) {
@@ -70,17 +95,19 @@ void measure(const Row& row, int count, std::uint64_t seed) {
   using Clock = std::chrono::steady_clock;
   std::vector<double> logErrors;
   std::size_t solutions = 0, wrong = 0, duplicates = 0;
-  int recovered = 0, failures = 0;
+  int recovered = 0, failures = 0, completeSets = 0;
   double seconds = 0;
   for (int i = 0; i < count; ++i) {
     Random random(seed, static_cast<std::uint64_t>(i));
     const MinimalProblem problem = row.makeProblem(random);
     FocalPoses poses(solvers::kMaxSolutions);
     const Clock::time_point start = Clock::now();
-    const int found = row.solve(problem.rays.data(), problem.points.data(), poses.data());
+    bool complete = false;
+    const int found = row.tellsCompleteness ? solveH51f(problem, poses.data(), &complete)
+                                            : row.solve(problem.rays.data(), problem.points.data(), poses.data());
     seconds += std::chrono::duration<double>(Clock::now() - start).count();
     poses.resize(static_cast<std::size_t>(found));
-    solutions += poses.size();
+    solutions += poses.size(), completeSets += complete;
     for (std::size_t k = 0; k < poses.size(); ++k) {
       wrong += !(largestResidual(problem, poses[k], row.exactPoints) < 1e-5);
       for (std::size_t j = 0; j < k; ++j) duplicates += poseDistance(poses[k], poses[j]) < 1e-7;
@@ -91,9 +118,11 @@ void measure(const Row& row, int count, std::uint64_t seed) {
   }
   std::sort(logErrors.begin(), logErrors.end());
   const auto quantile = [&](double q) { return logErrors[static_cast<std::size_t>(q * (count - 1))]; };
-  std::printf("| %-44s | %7d | %8.4f | %7.4f | %6.2f | %6.2f | %5.2f | %5zu | %5zu | %7.2f |\n", row.name.c_str(), count,
+  char completeness[16] = "-";
+  if (row.tellsCompleteness) std::snprintf(completeness, sizeof completeness, "%.4f", 100.0 * completeSets / count);
+  std::printf("| %-44s | %7d | %8.4f | %7.4f | %6.2f | %6.2f | %5.2f | %5zu | %5zu | %8s | %7.2f |\n", row.name.c_str(), count,
               100.0 * recovered / count, 100.0 * failures / count, quantile(0.5), quantile(0.99),
-              static_cast<double>(solutions) / count, wrong, duplicates, 1e6 * seconds / count);
+              static_cast<double>(solutions) / count, wrong, duplicates, completeness, 1e6 * seconds / count);
   std::fflush(stdout);
 }
 
@@ -117,9 +146,9 @@ int main(int argc, char** argv) {
       return std::fprintf(stderr, "usage: %s [--count N] [--seed S] [--solver NAME] [--awkward]\n", argv[0]), 2;
     }
   }
-  std::printf("| %-44s | %7s | %8s | %7s | %6s | %6s | %5s | %5s | %5s | %7s |\n", "solver", "count", "found %", "fail %",
-              "median", "99 %", "sol.", "wrong", "twice", "us");
-  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf("| %-44s | %7s | %8s | %7s | %6s | %6s | %5s | %5s | %5s | %8s | %7s |\n", "solver", "count", "found %", "fail %",
+              "median", "99 %", "sol.", "wrong", "twice", "complete", "us");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Row& row : rows(awkward))
     if (row.name.compare(0, solver.size(), solver) == 0) measure(row, count, seed);
 }

@@ -1,6 +1,7 @@
 // Scenes for H51f: which rays share a centre, and where everything is.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,36 @@ inline void moveRayToAxis(MinimalProblem& problem, std::size_t ray, double depth
   const Eigen::Vector3d point = problem.truth.position + depth * problem.truth.rotation.col(2);
   problem.rays[ray].u = problem.rays[ray].v = 0;
   problem.rays[ray].direction = (point - problem.rays[ray].centre).normalized();
+}
+
+// Scenes other than the usual one.
+struct H51fScene {
+  std::string name;
+  std::function<MinimalProblem(Random&, const RaysPerCamera&)> make;
+  bool finite = true;  // no solutions at infinity
+};
+inline const std::vector<H51fScene>& h51fScenes() {
+  static const std::vector<H51fScene> scenes = {
+      {"rig +-0.5", [](Random& random, const RaysPerCamera& pattern) { return makeRigProblem(random, pattern, 0.5); }},
+      {"rig +-0.1", [](Random& random, const RaysPerCamera& pattern) { return makeRigProblem(random, pattern, 0.1); }},
+      {"same side", makeSameSideProblem},
+      {"planar", makePlanarProblem},
+      {"point at the principal point",
+       [](Random& random, const RaysPerCamera& pattern) {
+         MinimalProblem problem = makeMinimalProblem(random, pattern, 1);
+         movePointToAxis(problem, random.uniform(10, 30));
+         return problem;
+       },
+       false},
+      {"ray at the principal point",
+       [](Random& random, const RaysPerCamera& pattern) {
+         MinimalProblem problem = makeMinimalProblem(random, pattern, 1);
+         moveRayToAxis(problem, 1, random.uniform(10, 30));
+         return problem;
+       },
+       false},
+  };
+  return scenes;
 }
 
 }  // namespace test
