@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "MinimalProblem.hpp"
+#include "math/homotopy/Monodromy.hpp"
 #include "solvers/h51f/Monodromy.hpp"
 #include "solvers/h51f/StartSystems.hpp"
 
@@ -87,12 +88,6 @@ TEST(H51fSystem, PoseAndSolutionAreInverse) {
     EXPECT_LT(poseDistance(pose, problem.truth), 1e-12);
     EXPECT_LT((pose.position - problem.truth.position).norm(), 1e-10);
   }
-}
-
-bool coincide(const KnownSolution& a, const KnownSolution& b) {
-  for (int k = 0; k < N; ++k)
-    if (std::hypot(a.re[k] - b.re[k], a.im[k] - b.im[k]) > 1e-6 * (1 + std::hypot(a.re[k], a.im[k]))) return false;
-  return true;
 }
 
 // The table's solutions, refined to double precision.

@@ -1,19 +1,15 @@
 #include "solvers/h51f/Monodromy.hpp"
 
-#include <cmath>
-#include <numeric>
-
 #include "MinimalProblem.hpp"
+#include "math/homotopy/Monodromy.hpp"
 
 namespace hybridgv {
 namespace h51f {
 
 using namespace HYBRIDGV_INSTRUCTION_SET;
-using Tracker = PathTracker<H51fSystem, Doubles, Pivoting::Rows>;
 using Number = std::complex<double>;
 
 constexpr double kLoopDeviation = 0.4;
-constexpr double kDistinct = 1e-6;
 
 int solutionCount(Sharing sharing) { return sharing == Sharing::AtMostTwo ? 56 : sharing == Sharing::Three ? 50 : 36; }
 
@@ -59,36 +55,10 @@ void restoreSharedCentre(Sharing sharing, Parameters* parameters) {
   }
 }
 
-static bool coincide(const KnownSolution& a, const KnownSolution& b) {
-  for (int k = 0; k < kUnknowns; ++k)
-    if (std::hypot(a.re[k] - b.re[k], a.im[k] - b.im[k]) > kDistinct * (1 + std::hypot(a.re[k], a.im[k]))) return false;
-  return true;
-}
-
-// Tracks the solutions that are there; those whose path fails are dropped.
-static void moveWhatCanBeMoved(const Parameters& parameters, KnownSystem* system) {
-  const std::size_t count = system->solutions.size();
-  const Homotopy<double> path = straightHomotopy(system->parameters, parameters);
-  std::vector<int> all(count);
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<KnownSolution> tangents(count), moved(count);
-  std::vector<PathEnd<double, kUnknowns>> ends(count);
-  std::vector<double> lastStep(count);
-  const int n = static_cast<int>(count);
-  Tracker::startTangents(path, system->solutions.data(), all.data(), n, tangents.data());
-  Tracker::track(path, system->solutions.data(), tangents.data(), all.data(), n, {1e-3, 1e-2, 1e-5, 0.01, 0.1, 1e-13, 3000},
-                 ends.data());
-  for (std::size_t i = 0; i < count; ++i) moved[i] = ends[i].point;
-  newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(path, 1.0, moved.data(), all.data(), n, 5, 0.0, lastStep.data());
-  system->parameters = parameters;
-  system->solutions.clear();
-  for (std::size_t i = 0; i < count; ++i)
-    if (ends[i].reached && lastStep[i] < 1e-10) system->solutions.push_back(moved[i]);
-}
-
 bool moveTo(const Parameters& parameters, KnownSystem* system) {
   const std::size_t count = system->solutions.size();
-  moveWhatCanBeMoved(parameters, system);
+  system->solutions = trackCarefully<H51fSystem>(straightHomotopy(system->parameters, parameters), system->solutions);
+  system->parameters = parameters;
   for (std::size_t i = 0; i < system->solutions.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (coincide(system->solutions[i], system->solutions[j])) return false;
@@ -98,21 +68,12 @@ bool moveTo(const Parameters& parameters, KnownSystem* system) {
 KnownSystem solveByMonodromy(Sharing sharing, int idleLoops, test::Random& random) {
   KnownSystem system;
   Parameters real;
+  const auto randomParameters = [&] { return perturbed(sharing, real, kLoopDeviation, random); };
   do {
     system = randomRealSystem(sharing, random);
     real = system.parameters;
-  } while (!moveTo(perturbed(sharing, real, kLoopDeviation, random), &system));
-  for (int idle = 0; idle < idleLoops; ++idle) {
-    KnownSystem moving = system;
-    moveWhatCanBeMoved(perturbed(sharing, real, kLoopDeviation, random), &moving);
-    moveWhatCanBeMoved(perturbed(sharing, real, kLoopDeviation, random), &moving);
-    moveWhatCanBeMoved(system.parameters, &moving);
-    for (const KnownSolution& end : moving.solutions) {
-      bool known = false;
-      for (const KnownSolution& solution : system.solutions) known = known || coincide(solution, end);
-      if (!known) system.solutions.push_back(end), idle = -1;
-    }
-  }
+  } while (!moveTo(randomParameters(), &system));
+  addByMonodromy<H51fSystem>(system.parameters, straightHomotopy, randomParameters, idleLoops, &system.solutions);
   return system;
 }
 
