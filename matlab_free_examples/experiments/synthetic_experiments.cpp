@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
@@ -16,6 +15,7 @@
 #include "../common/ProgressBar.hpp"
 #include "../common/Statistics.hpp"
 #include "../common/parallelFor.hpp"
+#include "ErrorTable.hpp"
 #include "SyntheticScene.hpp"
 
 namespace {
@@ -40,19 +40,6 @@ const std::vector<SolverRow> kSolvers = {
     {"H51f[1]", {{0, 1, 2, 3, 4}, {0}}, [](const auto& a, const auto& sample) { return hybridgv::hybrid_pose::h51f(a, sample); }},
     {"H51f[5]", {{5, 6, 7, 8, 9}, {0}}, [](const auto& a, const auto& sample) { return hybridgv::hybrid_pose::h51f(a, sample); }},
 };
-
-// Of the solution nearest to the truth in rotation and focal length together; all infinite if there is no solution.
-PoseError errorOfNearest(const FocalPoses& solutions, const hybridgv::FocalPose& truth) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  PoseError error{kInfinity, kInfinity, kInfinity};
-  double nearest = kInfinity;
-  for (const hybridgv::FocalPose& pose : solutions) {
-    const double distance = hybridgv::test::poseDistance(pose, truth);
-    if (distance < nearest) nearest = distance, error = poseError(pose, truth);
-  }
-  error.focalPercent = std::abs(error.focalPercent);
-  return error;
-}
 
 struct Experiment {
   CommonOptions options;
