@@ -30,7 +30,9 @@ constexpr int kMaxSolutions = 56;
 
 // Finds the poses that are consistent with the sample, writes them to `solutions` and returns their number. All solvers keep
 // this contract:
-//  * the input is finite; its image coordinates and lengths may have any unit and scale (the solver normalises inside);
+//  * the input is finite; its image coordinates and lengths may have any unit and scale, at least from 1e-150 to 1e150 (the
+//  solver
+//    normalises inside);
 //  * every returned pose satisfies the equations, has f > 0, det rotation = +1, positive depths of points and rays;
 //  * no solution is returned twice; degenerate input gives 0 solutions; nothing is NaN;
 //  * no allocation, no global state, bounded time.

@@ -27,7 +27,7 @@ static bool agrees(const FocalPose& pose, const RayMatch& ray, double imageScale
   const Vector3d normal = direction.cross(centre), line(normal[0], normal[1], normal[2] * f);  // line.(u, v, 1) = 0
   const double residual = std::abs(line.dot(Vector3d(ray.u, ray.v, 1)));
   return residual < kLargestResidual * imageScale * line.head<2>().norm() &&
-         solvers::meetInFront(ray.u, ray.v, f, direction, centre.normalized());
+         solvers::meetInFront(ray.u / imageScale, ray.v / imageScale, f / imageScale, direction, centre.normalized());
 }
 
 static Solution solutionAt(const math::Point<double, kUnknowns>& p) {
