@@ -107,10 +107,20 @@ class RayEquation {
   double area_;
 };
 
+// A ray through a point that is seen in the same place adds no equation.
+bool repeats(const RayMatch& ray, const PointMatch& match, double imageScale) {
+  constexpr double kSame = 1e-12;  // relative
+  if (std::max(std::abs(ray.u - match.u), std::abs(ray.v - match.v)) > kSame * imageScale) return false;
+  const Eigen::Vector3d toPoint = match.point - ray.centre;
+  return toPoint.cross(ray.direction).norm() <= kSame * (ray.centre.norm() + match.point.norm());
+}
+
 }  // namespace
 
 int h13f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions) {
   const double rayImage = std::max(std::abs(rays[0].u), std::abs(rays[0].v));
+  for (int i = 0; i < 3; ++i)
+    if (repeats(rays[0], points[i], rayImage)) return 0;
   ThreePointFrame frame;
   if (!frame.set(points[0], points[1], points[2], rayImage)) return 0;
   const RayEquation equation(frame, rays[0]);
