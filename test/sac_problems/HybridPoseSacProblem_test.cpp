@@ -64,6 +64,8 @@ TEST_F(SacProblem, SampleHasTheMixtureOfTheSolver) {
 }
 
 TEST_F(SacProblem, FlatIndicesAreTheRaysThenThePoints) {
+  constexpr double kRigFocalLength = 1200;
+  adapter_.setRigFocalLengths({kRigFocalLength, kRigFocalLength, kRigFocalLength});
   const HybridPoseSacProblem problem = flat(Solver::H13f);
   const MultiHybridPoseSacProblem multiProblem = multi(Solver::H13f);
   FocalPose pose = data_.truth;
@@ -74,7 +76,7 @@ TEST_F(SacProblem, FlatIndicesAreTheRaysThenThePoints) {
   multiProblem.getSelectedDistancesToModel(pose, {{0, 23}, {0, 19}}, byType);
   const auto sampson = [&](std::size_t i) {
     return hybridgv::hybrid_pose::sampsonError(pose, adapter_.getImagePoint2d2d(i), adapter_.getBearingVector(i),
-                                               adapter_.getCamOffset(i), adapter_.getCamRotation(i), 0) /
+                                               adapter_.getCamOffset(i), adapter_.getCamRotation(i), kRigFocalLength) /
            kEpipolarPx;
   };
   const auto reprojection = [&](std::size_t i) {
@@ -91,6 +93,20 @@ TEST_F(SacProblem, FlatIndicesAreTheRaysThenThePoints) {
     EXPECT_NEAR(byType[0][i], expected2d2d[i], 1e-9 * expected2d2d[i]);
     EXPECT_NEAR(byType[1][i], expected2d3d[i], 1e-9 * expected2d3d[i]);
   }
+}
+
+// The Sampson error of any rays would vanish with the focal length, if an unknown one of the rig camera were taken to be the same.
+TEST_F(SacProblem, RaysDoNotFitAVanishingFocalLength) {
+  FocalPose collapsed = data_.truth;
+  collapsed.focalLength *= 1e-4;
+  int inliers = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    collapsed.rotation = random_.rotation();
+    std::vector<double> distances;
+    flat(Solver::H13f).getDistancesToModel(collapsed, distances);
+    inliers += static_cast<int>(std::count_if(distances.begin(), distances.begin() + 24, [](double d) { return d < 1; }));
+  }
+  EXPECT_LT(inliers, 20 * 24 / 20);
 }
 
 TEST_F(SacProblem, DistancesAreFinite) {

@@ -51,6 +51,7 @@ struct HybridProblemCore::Data {
                robust::allIndices(adapter.getNumberCorrespondences2d3d())),
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx) {
+    arrays.boundUnknownFocalLengths();
     for (std::size_t i = 0; i < arrays.rays().size(); ++i) cameras.push_back(correspondences.getCamIndex(i));
     checkThreshold("maxReprojectionErrorPx", reprojectionPx);
     checkThreshold("maxEpipolarErrorPx", epipolarPx);
@@ -101,7 +102,7 @@ struct HybridProblemCore::Data {
 
   const solvers::MinimalSolver& solver;
   const CopiedCorrespondences correspondences;
-  const robust::HybridArrays arrays;
+  robust::HybridArrays arrays;
   std::vector<int> cameras;  // of the 2D-2D correspondences
   const double maxReprojectionErrorPx, maxEpipolarErrorPx;
 };
