@@ -2,9 +2,19 @@
 #pragma once
 
 #include <fstream>
+#include <initializer_list>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+// Its arguments one after the other.
+template <class... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream out;
+  (void)std::initializer_list<int>{(out << parts, 0)...};
+  return out.str();
+}
 
 class CsvFile {
  public:

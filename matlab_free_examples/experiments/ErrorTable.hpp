@@ -48,7 +48,11 @@ class ErrorTable {
   }
 
   void write(const std::string& folder, const std::string& name, const std::string& remark, const std::string& keyColumns) const {
-    CsvFile csv(folder, name, {remark}, keyColumns + ",good_percent,rotation_deg,position,focal_percent,microseconds,iterations");
+    CsvFile csv(folder, name,
+                {remark,
+                 "good_percent: rotation below 5 degrees and focal length within 20 %; other columns: medians; position: units, "
+                 "cube side 10"},
+                keyColumns + ",good_percent,rotation_deg,position,focal_percent,microseconds,iterations");
     for (const Key& key : order_) {
       const Row& row = rows_.at(key);
       std::string start = key[0];

@@ -181,23 +181,23 @@ void run(const Settings& settings) {
       static_cast<std::size_t>(settings.solverScenes) + outlierShares.size() * static_cast<std::size_t>(settings.loopScenes),
       !settings.options.quiet);
   const std::string scenes =
-      " scenes, seed " + std::to_string(settings.options.seed) +
-      "; 200 2D-2D and 200 2D-3D matches, image noise 2 px, noise of the 3D points 0.1 (0.5 % of the depth)";
+      text(" scenes, seed ", settings.options.seed, "; 200 2D-2D and 200 2D-3D matches, image noise ", settings.imageNoisePx,
+           " px, noise of the 3D points ", settings.pointNoise, " (", 5 * settings.pointNoise, " % of the mean depth)");
   ErrorTable solvers, loops;
   for (int i = 0; i < settings.solverScenes; ++i, progress.step())
     compareSolvers(settings, makeScene(settings, static_cast<std::uint64_t>(i), 0), solvers);
   solvers.write(settings.options.output, "opengv_solvers.csv",
-                std::to_string(settings.solverScenes) + scenes +
+                text(settings.solverScenes, scenes) +
                     ", no outliers; of several solutions the nearest to the truth; no solution counts as an infinite error",
                 "library,method,focal_length,matches");
   for (const double share : outlierShares)
     for (int i = 0; i < settings.loopScenes; ++i, progress.step())
       compareLoops(settings, share, makeScene(settings, static_cast<std::uint64_t>(i), share), loops);
-  loops.write(
-      settings.options.output, "opengv_loops.csv",
-      std::to_string(settings.loopScenes) + scenes +
-          "; every loop: probability 0.9999, at most 1000 iterations, 15 px (2D-3D) and 6 px (2D-2D), nonlinear refinement",
-      "loop,method,focal_length,outliers_percent");
+  loops.write(settings.options.output, "opengv_loops.csv",
+              text(settings.loopScenes, scenes) + text("; every loop: probability ", kProbability, ", at most ", kMaxIterations,
+                                                       " iterations, ", kMaxReprojectionErrorPx, " px (2D-3D) and ",
+                                                       kMaxEpipolarErrorPx, " px (2D-2D), nonlinear refinement"),
+              "loop,method,focal_length,outliers_percent");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Settings {
   CommonOptions options;
   std::vector<std::string> maps;
   double outlierShare = 0.3, maxRotationDeg = 1, maxPositionPercent = 2;
-  int repetitions = 10;
+  int repetitions = 50;
   HybridRansacOptions ransac;
 };
 
@@ -65,6 +65,13 @@ std::vector<Query> makeQueries(const SparseModel& map, const Settings& settings)
           {injectOutliers(makeLocalizationProblem(map, i), settings.outlierShare, settings.options.seed + i), median(depths)});
   }
   return queries;
+}
+
+// "crane" for .../crane/, "kermit" for .../kermit/bundle.out: file names tend to be all the same.
+std::string sceneName(const std::string& map) {
+  const std::filesystem::path path = std::filesystem::absolute(map).lexically_normal() / "";
+  const std::filesystem::path last = path.parent_path();
+  return std::filesystem::is_directory(map) ? last.filename() : last.parent_path().filename();
 }
 
 struct Attempt {
@@ -107,18 +114,17 @@ void writeRow(CsvFile& csv, const std::string& scene, std::size_t queries, const
 void run(const Settings& settings) {
   CsvFile csv(
       settings.options.output, "localization_table.csv",
-      {"each photo " + std::to_string(settings.repetitions) + " times with different seeds from " +
-           std::to_string(settings.options.seed) + " on; wrong matches: " + std::to_string(100 * settings.outlierShare) + " %",
-       "within_percent: rotation within " + std::to_string(settings.maxRotationDeg) + " deg and position within " +
-           std::to_string(settings.maxPositionPercent) +
-           " % of the median depth of the photo's points; a failure counts as an infinite error"},
+      {text("each photo ", settings.repetitions, " times with different seeds from ", settings.options.seed,
+            " on; wrong matches: ", 100 * settings.outlierShare, " %; thresholds ", settings.ransac.maxReprojectionErrorPx,
+            " px (2D-3D), ", settings.ransac.maxEpipolarErrorPx, " px (2D-2D); hybridgv ", hybridgv::version()),
+       text("within_percent: rotation within ", settings.maxRotationDeg, " deg and position within ", settings.maxPositionPercent,
+            " % of the median depth of the photo's points; a failure counts as an infinite error")},
       "scene,queries,solvers,local_optimization,success_percent,within_percent,rotation_deg,position_percent_of_depth,"
       "focal_percent,milliseconds,iterations");
   for (const std::string& path : settings.maps) {
     const std::vector<Query> queries = makeQueries(hybridgv::sfm::readModel(path), settings);
     if (queries.empty()) throw std::invalid_argument(path + " has no photo that can be localized");
-    const std::filesystem::path file = std::filesystem::path(path).lexically_normal();
-    const std::string scene = file.has_filename() ? file.stem() : file.parent_path().filename();
+    const std::string scene = sceneName(path);
     const std::size_t attempts = queries.size() * static_cast<std::size_t>(settings.repetitions);
     ProgressBar progress(2 * kSolverSets.size() * attempts, !settings.options.quiet);
     for (const SolverSet& set : kSolverSets)

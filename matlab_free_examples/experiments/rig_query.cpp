@@ -126,9 +126,9 @@ int main(int argc, char** argv) {
               [&] { return hybridLoop(scene, useRays, options, iterations); }, &iterations);
       }
     table.write(options.output, "rig_query.csv",
-                std::to_string(scenes) + " scenes, seed " + std::to_string(options.seed) +
-                    "; image noise 2 px, noise of the 3D points 0.1 (0.5 % of the depth), 30 % outliers; a failure counts as an "
-                    "infinite error",
+                text(scenes, " scenes, seed ", options.seed, "; image noise ", kImageNoisePx, " px, noise of the 3D points ",
+                     kPointNoise, " (", 5 * kPointNoise, " % of the mean depth), ", 100 * kOutlierShare,
+                     " % outliers; a failure counts as an infinite error"),
                 "method,query_cameras,focal_length,matches,matches_of_each_type_per_camera");
   });
 }

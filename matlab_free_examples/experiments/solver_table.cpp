@@ -131,9 +131,9 @@ void run(const Settings& settings) {
 
   CsvFile csv(
       settings.options.output, "solver_table.csv",
-      {std::to_string(settings.problems) + " noiseless problems, seed " + std::to_string(settings.options.seed) +
-           "; times: " + std::to_string(settings.repetitions) + " passes over " + std::to_string(settings.timed) +
-           " problems, one thread, gp3p " + std::to_string(gp3p.middle()) + " us (median)",
+      {text(settings.problems, " noiseless problems, seed ", settings.options.seed, "; times: ", settings.repetitions,
+            " passes over ", settings.timed, " problems, one thread, gp3p ", gp3p.middle(), " us (median); hybridgv ",
+            hybridgv::version()),
        "paper_template: the size printed in Bhayani et al., WACV 2023, Table 1; everything else is measured here; real "
        "solutions: with a positive focal length, in front of all cameras"},
       "problem,configuration,solutions_at_most,most_real_solutions,mean_real_solutions,core,paper_template,microseconds_median,"

@@ -46,8 +46,8 @@ struct Experiment {
   std::size_t scenes = 5000;
 
   std::string remark() const {
-    return std::to_string(scenes) + " scenes, seed " + std::to_string(options.seed) + ", hybridgv " + hybridgv::version() +
-           ", solution nearest to the truth, a missing one counts as an infinite error";
+    return text(scenes, " scenes, seed ", options.seed, ", hybridgv ", hybridgv::version(),
+                ", solution nearest to the truth, a missing one counts as an infinite error");
   }
 
   // errors[solver][scene]
