@@ -162,7 +162,7 @@ const char* toString(CameraModel model) {
     case CameraModel::NvmRadial:
       return "NVM_RADIAL";
   }
-  return "?";
+  throwInvalid("model", "no such camera model: " + std::to_string(static_cast<int>(model)));
 }
 
 std::size_t parameterCount(CameraModel model) {

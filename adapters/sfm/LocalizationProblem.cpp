@@ -35,6 +35,16 @@ const Camera& cameraOf(const SparseModel& model, std::size_t image) {
   return model.cameras[camera];
 }
 
+void checkPose(const SparseModel& model, std::size_t image) {
+  if (!model.images[image].rotation.allFinite() || !model.images[image].position.allFinite())
+    throwInvalid(element("images", image), "the pose is not finite");
+}
+
+std::optional<Eigen::Vector3d> undistorted(const SparseModel& model, std::size_t image, const Observation& o) {
+  if (!std::isfinite(o.x) || !std::isfinite(o.y)) throwInvalid(element("images", image), "an observation is not finite");
+  return undistort(cameraOf(model, image), o.x, o.y);
+}
+
 void checkOptions(const LocalizationProblemOptions& options) {
   const auto check = [](const char* name, double value) {
     if (!(value >= 0) || !std::isfinite(value))
@@ -65,10 +75,10 @@ MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t q
       throwInvalid(element("points", pointIndex), "the track names an observation that does not exist");
     const Image& image = model.images[e.image];
     if (!done.insert(e.image).second || !image.registered) continue;
-    const Camera& camera = cameraOf(model, e.image);
-    const Observation& o = image.observations[e.observation];
-    if (const std::optional<Eigen::Vector3d> point = undistort(camera, o.x, o.y)) {
-      result.views.push_back({image.rotation, image.position, focalLength(camera), (*point)[0], (*point)[1]});
+    checkPose(model, e.image);
+    if (const std::optional<Eigen::Vector3d> point = undistorted(model, e.image, image.observations[e.observation])) {
+      const double f = focalLength(cameraOf(model, e.image));
+      result.views.push_back({image.rotation, image.position, f, (*point)[0], (*point)[1]});
       result.images.push_back(e.image);
     }
   }
@@ -76,7 +86,6 @@ MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t q
 }
 
 Matches findMatches(const SparseModel& model, std::size_t query, const LocalizationProblemOptions& options) {
-  const Camera& camera = cameraOf(model, query);
   const double minParallax = options.minParallaxDeg * std::acos(-1.0) / 180;
   Matches matches;
   const std::vector<Observation>& observations = model.images[query].observations;
@@ -84,7 +93,7 @@ Matches findMatches(const SparseModel& model, std::size_t query, const Localizat
     const Observation& o = observations[i];
     if (o.point == Observation::kNoPoint) continue;
     if (o.point >= model.points.size()) throwInvalid(element("images", query), "there is no point " + std::to_string(o.point));
-    const std::optional<Eigen::Vector3d> imagePoint = undistort(camera, o.x, o.y);
+    const std::optional<Eigen::Vector3d> imagePoint = undistorted(model, query, o);
     if (!imagePoint || !isFirstOfTrack(model.points[o.point], query, i)) continue;
     const MapViews map = viewsOf(model, o.point, query);
     if (map.views.empty()) continue;
@@ -142,6 +151,7 @@ LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_
     throwInvalid("imageIndex", std::to_string(imageIndex) + " is outside the " + std::to_string(model.images.size()) + " images");
   const Image& query = model.images[imageIndex];
   if (!query.registered) throwInvalid("imageIndex", "image " + std::to_string(imageIndex) + " (" + query.name + ") has no pose");
+  checkPose(model, imageIndex);
   LocalizationProblem problem = toProblem(model, findMatches(model, imageIndex, options));
   problem.imageName = query.name;
   problem.reference = FocalPose{query.rotation, query.position, focalLength(cameraOf(model, imageIndex))};

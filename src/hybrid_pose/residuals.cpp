@@ -9,13 +9,18 @@
 namespace hybridgv {
 namespace hybrid_pose {
 
-static double infiniteUnlessFinite(double error) {
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+static double infiniteUnlessFinite(double error) { return std::isfinite(error) ? error : kInfinity; }
+
+static bool isFinite(const FocalPose& pose) {
+  return pose.rotation.allFinite() && pose.position.allFinite() && std::isfinite(pose.focalLength);
 }
 
 double reprojectionError(const FocalPose& pose, const Eigen::Vector3d& imagePoint, const Eigen::Vector3d& point) {
+  if (!isFinite(pose) || !imagePoint.allFinite() || !point.allFinite()) return kInfinity;
   const Eigen::Vector3d y = pose.rotation.transpose() * (point - pose.position);
-  if (!(y[2] > 0)) return std::numeric_limits<double>::infinity();
+  if (!(y[2] > 0)) return kInfinity;
   const double du = pose.focalLength * y[0] / y[2] - imagePoint[0] / imagePoint[2];
   const double dv = pose.focalLength * y[1] / y[2] - imagePoint[1] / imagePoint[2];
   return infiniteUnlessFinite(std::sqrt(du * du + dv * dv));
@@ -23,13 +28,16 @@ double reprojectionError(const FocalPose& pose, const Eigen::Vector3d& imagePoin
 
 double sampsonError(const FocalPose& pose, const Eigen::Vector3d& imagePoint, const Eigen::Vector3d& bearingVector,
                     const Eigen::Vector3d& camOffset, const Eigen::Matrix3d& camRotation, double rigFocalLength) {
+  if (!isFinite(pose) || !imagePoint.allFinite() || !bearingVector.allFinite() || !camOffset.allFinite() ||
+      !camRotation.allFinite() || !std::isfinite(rigFocalLength))
+    return kInfinity;
   const EpipolarRay ray = makeEpipolarRay(bearingVector, camRotation);
   const Eigen::Vector3d inQuery(imagePoint[0] / imagePoint[2], imagePoint[1] / imagePoint[2], pose.focalLength);
   const Eigen::Vector3d w = pose.rotation * inQuery;
   const Eigen::Vector3d t = camOffset - pose.position;
   const Eigen::Vector3d l = t.cross(ray.direction), n = w.cross(t), s = w.cross(ray.direction);
   // The lines position + alpha w and camOffset + beta D are closest at alpha = l.s / s.s, beta = -n.s / s.s.
-  if (!(l.dot(s) > 0 && n.dot(s) < 0)) return std::numeric_limits<double>::infinity();
+  if (!(l.dot(s) > 0 && n.dot(s) < 0)) return kInfinity;
   const double g = rigFocalLength > 0 ? rigFocalLength : pose.focalLength;
   const double byQuery = std::pow(pose.rotation.col(0).dot(l), 2) + std::pow(pose.rotation.col(1).dot(l), 2);
   const double byMap = n.squaredNorm() - std::pow(ray.imageNormal.dot(n), 2);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
+#include "CheckArguments.hpp"
 #include "robust/SampleCheck.hpp"
 
 namespace hybridgv {
@@ -36,9 +38,13 @@ std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t s
 
 // Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
 template <class Weight>
-std::vector<int> byQuality(const std::vector<int>& indices, Weight weight) {
+std::vector<int> byQuality(const char* name, const std::vector<int>& indices, Weight weight) {
   std::vector<int> order = allIndices(indices.size());
   const auto weightOf = [&](int i) { return weight(static_cast<std::size_t>(indices[static_cast<std::size_t>(i)])); };
+  for (const int i : order)
+    if (!std::isfinite(weightOf(i)))
+      throwInvalid("adapter." + std::string(name) + "(" + std::to_string(indices[static_cast<std::size_t>(i)]) + ")",
+                   "must be finite, is " + std::to_string(weightOf(i)));
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
   return order;
 }
@@ -48,8 +54,8 @@ Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const HybridA
   std::vector<int> cameras;
   for (const solvers::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
   if (sampling == sac::Sampling::Uniform) return {cameras, allIndices(rayIndices.size()), allIndices(pointIndices.size()), false};
-  std::vector<int> rays = byQuality(rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
-  std::vector<int> points = byQuality(pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
+  std::vector<int> rays = byQuality("getWeight2d2d", rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
+  std::vector<int> points = byQuality("getWeight2d3d", pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
   const bool weightsDiffer = !std::is_sorted(rays.begin(), rays.end()) || !std::is_sorted(points.begin(), points.end());
   return {cameras, std::move(rays), std::move(points), weightsDiffer};
 }

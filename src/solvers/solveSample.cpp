@@ -9,8 +9,7 @@
 namespace hybridgv {
 namespace solvers {
 
-// A focal length or a position beyond the largest double.
-static bool overflows(const FocalPose& pose) {
+bool overflows(const FocalPose& pose) {
   return !std::isfinite(pose.focalLength) || !pose.position.allFinite() || !pose.rotation.allFinite();
 }
 

@@ -31,6 +31,9 @@ inline FocalPoses solveSample(SolveFunction solver, int rays, int points, int ma
   return readSample(rays, points, adapter, indices).solve(solver, maxSolutions);
 }
 
+// Is a focal length or a position beyond the largest double?
+bool overflows(const FocalPose& pose);
+
 // {0, 1, .., rays-1}, {0, 1, .., points-1}
 std::vector<std::vector<int>> firstIndices(int rays, int points);
 

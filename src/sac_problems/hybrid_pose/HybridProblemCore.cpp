@@ -11,6 +11,7 @@
 #include "sac_problems/hybrid_pose/CopiedCorrespondences.hpp"
 #include "sac_problems/hybrid_pose/drawSample.hpp"
 #include "sac_problems/hybrid_pose/isDegenerate.hpp"
+#include "solvers/solveSample.hpp"
 
 namespace hybridgv {
 namespace sac_problems {
@@ -161,6 +162,7 @@ bool HybridProblemCore::computeModel(const MultiIndices& sample, const std::vect
   std::vector<double> squaredDistances;
   double best = std::numeric_limits<double>::infinity();
   for (const FocalPose& solution : solutions) {
+    if (solvers::overflows(solution)) continue;
     data_->computeSquaredDistances(solution, squaredDistances);
     double cost = 0;
     for (int i : pool) {
@@ -171,7 +173,7 @@ bool HybridProblemCore::computeModel(const MultiIndices& sample, const std::vect
     best = cost;
     model = solution;
   }
-  return !solutions.empty();
+  return std::isfinite(best);
 }
 
 void HybridProblemCore::distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const {
@@ -187,6 +189,7 @@ void HybridProblemCore::distances(const FocalPose& model, const std::vector<int>
 
 int HybridProblemCore::countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const {
   checkRanges("indices", flat, data_->count());
+  if (!(threshold >= 0)) throwInvalid("threshold", "must not be negative, is " + std::to_string(threshold));
   std::vector<double> squaredDistances;
   data_->computeSquaredDistances(model, squaredDistances);
   const double squaredThreshold = threshold * threshold;
@@ -197,6 +200,7 @@ int HybridProblemCore::countWithin(const FocalPose& model, const std::vector<int
 
 FocalPose HybridProblemCore::optimize(const MultiIndices& inliers, const FocalPose& model) const {
   data_->checkPool("inliers", inliers);
+  checkPose("model", model);
   return hybridgv::hybrid_pose::optimize_nonlinear(data_->correspondences, inliers, model).pose;
 }
 

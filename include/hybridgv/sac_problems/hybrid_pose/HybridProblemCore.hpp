@@ -57,13 +57,14 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   bool computeModel(const MultiIndices& sample, const std::vector<int>& pool, FocalPose& model) const;
 
   /// Distances of correspondences (flat indices) to the model, in the same order: each an error in pixels divided by its own
-  /// threshold; finite (kMaxDistance for a point behind the camera).
+  /// threshold; finite (kMaxDistance for a point behind the camera, and for a model that is not finite, which the loops may ask
+  /// for).
   void distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const;
 
-  /// How many of these distances are below `threshold`.
+  /// How many of these distances are below `threshold`, which must not be negative.
   int countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const;
 
-  /// hybrid_pose::optimize_nonlinear on the inliers.
+  /// hybrid_pose::optimize_nonlinear on the inliers; std::invalid_argument for a model that is not a pose.
   FocalPose optimize(const MultiIndices& inliers, const FocalPose& model) const;
 
   /// Stands for an infinite distance: OpenGV's loops add distances up.

@@ -58,26 +58,30 @@ struct LocalizationProblem {
 /// outside the invertible range of the distortion are left out. The rig's frame is the model's. Rig focal lengths are set.
 ///
 /// \param imageIndex  index into model.images (not the id in the file)
-/// \throws std::invalid_argument for an index out of range, an image that is not registered, a model with invalid indices,
-///         options that are negative or not finite
+/// \throws std::invalid_argument for an index out of range, an image that is not registered, options that are negative or
+///         not finite, and invalid indices or numbers that are not finite in those parts of the model that are needed
 HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
                                                             const LocalizationProblemOptions& options = {});
 
 /// The problem with wrong matches: of the correspondences of each type a share (rounded to the nearest count) is chosen at
 /// random, and the query image points of all chosen ones are permuted so that none keeps its own. A single one cannot be permuted
-/// and is left as it is. The same seed gives the same result on every platform. \param share  0 .. 1 \throws
-/// std::invalid_argument for a share outside 0 .. 1
+/// and is left as it is. The same seed gives the same result on every platform.
+///
+/// \param share  0 .. 1
+/// \throws std::invalid_argument for a share outside 0 .. 1
 HYBRIDGV_EXPORT LocalizationProblem injectOutliers(const LocalizationProblem& problem, double share, std::uint64_t seed);
 
 /// Reads the text format of problems. Lines, in any order, `#` starts a comment:
 ///
-///     query f qw qx qy qz tx ty tz   (at most one) reference: focal length [px] and x_query = R(q) X + t, the inverse of
-///     FocalPose cam id cx cy cz                a rig camera and its centre p3 u v X Y Z                   2D-3D: image point
-///     [px], undistorted, relative to the principal point; point of the rig p2 u v camid qx qy qz          2D-2D: image point;
-///     direction of the ray in the rig's frame, from that camera's centre
+///     query f qw qx qy qz tx ty tz   at most one: reference, focal length [px] and x_query = R(q) X + t, the inverse of FocalPose
+///     cam id cx cy cz                a rig camera and its centre
+///     p3 u v X Y Z                   2D-3D: image point [px], undistorted, relative to the principal point; point of the rig
+///     p2 u v camid qx qy qz          2D-2D: image point; direction of the ray in the rig's frame, from that camera's centre
 ///
 /// The rig cameras' frames are parallel to the rig's, their focal lengths unknown. imageName is the file's name without folder
-/// and extension. \throws FileError for a malformed file
+/// and extension.
+///
+/// \throws FileError for a malformed file
 HYBRIDGV_EXPORT LocalizationProblem readProblem(const std::string& path);
 
 /// Writes that format, with as many digits as are needed to read the same numbers again.

@@ -1,0 +1,252 @@
+// Wrong calls of the minimal solvers, of optimize_nonlinear and of the two errors.
+#include <Eigen/Geometry>
+
+#include "Misuse.hpp"
+#include "hybridgv/absolute_pose/methods.hpp"
+#include "hybridgv/hybrid_pose/methods.hpp"
+#include "hybridgv/hybrid_pose/residuals.hpp"
+#include "hybridgv/relative_pose/methods.hpp"
+
+namespace hybridgv {
+namespace test {
+namespace {
+
+using hybrid_pose::HybridAdapterBase;
+using MultiIndices = std::vector<std::vector<int>>;
+
+// A public solver with one list of indices or two, as one with two.
+struct PublicSolver {
+  std::string name;
+  int rays, points;
+  bool twoLists;
+  std::function<FocalPoses(const HybridAdapterBase&, const MultiIndices&)> solve;
+  std::function<FocalPoses(const HybridAdapterBase&)> solveFirst;
+};
+
+std::vector<PublicSolver> publicSolvers() {
+  using Adapter = HybridAdapterBase;
+  return {
+      {"p4pf", 0, 4, false, [](const Adapter& a, const MultiIndices& i) { return absolute_pose::p4pf(a, i[1]); },
+       [](const Adapter& a) { return absolute_pose::p4pf(a); }},
+      {"p35pf", 0, 4, false, [](const Adapter& a, const MultiIndices& i) { return absolute_pose::p35pf(a, i[1]); },
+       [](const Adapter& a) { return absolute_pose::p35pf(a); }},
+      {"sixpt_onefocal", 6, 0, false,
+       [](const Adapter& a, const MultiIndices& i) { return relative_pose::sixpt_onefocal(a, i[0]); },
+       [](const Adapter& a) { return relative_pose::sixpt_onefocal(a); }},
+      {"h13f", 1, 3, true, [](const Adapter& a, const MultiIndices& i) { return hybrid_pose::h13f(a, i); },
+       [](const Adapter& a) { return hybrid_pose::h13f(a); }},
+      {"h32f", 3, 2, true, [](const Adapter& a, const MultiIndices& i) { return hybrid_pose::h32f(a, i); },
+       [](const Adapter& a) { return hybrid_pose::h32f(a); }},
+      {"h51f", 5, 1, true, [](const Adapter& a, const MultiIndices& i) { return hybrid_pose::h51f(a, i); },
+       [](const Adapter& a) { return hybrid_pose::h51f(a); }},
+  };
+}
+
+std::vector<int> upTo(int count) {
+  std::vector<int> indices;
+  for (int i = 0; i < count; ++i) indices.push_back(i);
+  return indices;
+}
+
+TEST(Misuse, solvers_refuse_wrong_indices) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  for (const PublicSolver& solver : publicSolvers()) {
+    const MultiIndices good{upTo(solver.rays), upTo(solver.points)};
+    EXPECT_NO_THROW(solver.solve(adapter, good)) << solver.name;
+    const auto available = {static_cast<int>(adapter.getNumberCorrespondences2d2d()),
+                            static_cast<int>(adapter.getNumberCorrespondences2d3d())};
+    for (std::size_t list = 0; list < 2; ++list) {
+      if (good[list].empty()) continue;
+      const std::string argument = solver.twoLists ? "indices[" + std::to_string(list) + "]" : "indices";
+      const auto expectWrong = [&](const std::string& what, const std::vector<int>& indices) {
+        MultiIndices wrong = good;
+        wrong[list] = indices;
+        expectRefused(
+            solver.name + ", " + argument + " " + what, [&] { solver.solve(adapter, wrong); }, argument);
+      };
+      expectWrong("empty", {});
+      expectWrong("too few", upTo(static_cast<int>(good[list].size()) - 1));
+      for (std::size_t place = 0; place < good[list].size(); ++place) {
+        const int size = *(available.begin() + list);
+        for (const int index : {-1, std::numeric_limits<int>::min(), size, std::numeric_limits<int>::max()}) {
+          std::vector<int> indices = good[list];
+          indices[place] = index;
+          expectWrong("with " + std::to_string(index), indices);
+        }
+        for (std::size_t other = 0; other < place; ++other) {
+          std::vector<int> indices = good[list];
+          indices[place] = indices[other];
+          expectWrong("repeated", indices);
+        }
+      }
+    }
+    if (!solver.twoLists) continue;
+    for (const MultiIndices& lists : {MultiIndices{}, MultiIndices{good[0]}, MultiIndices{good[0], good[1], {}}})
+      expectRefused(
+          solver.name + " with " + std::to_string(lists.size()) + " lists", [&] { solver.solve(adapter, lists); }, "indices");
+  }
+}
+
+// More indices than a solver needs are no error: the first ones are used.
+TEST(Misuse, solvers_use_the_first_of_too_many_indices) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  for (const PublicSolver& solver : publicSolvers()) {
+    const FocalPoses expected = solver.solve(adapter, {upTo(solver.rays), upTo(solver.points)});
+    const FocalPoses poses = solver.solve(adapter, {upTo(12), upTo(8)});
+    ASSERT_EQ(poses.size(), expected.size()) << solver.name;
+    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].position, expected[i].position) << solver.name;
+  }
+}
+
+TEST(Misuse, solvers_refuse_adapters_with_too_few_correspondences) {
+  const NoncentralHybridAdapter empty({}, {}, {}, {}, {}, {}, {});
+  Random random(testSeed() + 801);
+  for (const PublicSolver& solver : publicSolvers()) {
+    expectRefused(
+        solver.name, [&] { solver.solveFirst(empty); }, "indices");
+    if (solver.rays > 0) {
+      const NoncentralHybridAdapter few = makeAdapter(makeMinimalProblem(random, {solver.rays - 1}, solver.points));
+      expectRefused(
+          solver.name, [&] { solver.solveFirst(few); }, "indices");
+    }
+    if (solver.points > 0) {
+      const NoncentralHybridAdapter few = makeAdapter(makeMinimalProblem(random, {solver.rays}, solver.points - 1));
+      expectRefused(
+          solver.name, [&] { solver.solveFirst(few); }, "indices");
+    }
+  }
+}
+
+TEST(Misuse, solvers_refuse_numbers_that_are_not_finite) {
+  for (const PublicSolver& solver : publicSolvers()) {
+    std::vector<WrongField> fields;
+    if (solver.rays > 0) fields = wrongRayFields();
+    const std::vector<WrongField> ofPoints = wrongPointFields();
+    if (solver.points > 0) fields.insert(fields.end(), ofPoints.begin(), ofPoints.end());
+    for (const WrongField& field : fields) {
+      AlteredAdapter adapter;
+      field.apply(adapter);
+      expectRefused(
+          solver.name + ", " + field.name, [&] { solver.solveFirst(adapter); }, field.getter);
+    }
+  }
+}
+
+TEST(Misuse, optimize_nonlinear_refuses_wrong_arguments) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  const FocalPose start;
+  const auto optimize = [&](const MultiIndices& indices) { hybrid_pose::optimize_nonlinear(adapter, indices, start); };
+  EXPECT_NO_THROW(optimize({{}, {}}));
+  for (const MultiIndices& lists : {MultiIndices{}, MultiIndices{{0}}, MultiIndices{{0}, {0}, {0}}})
+    expectRefused(
+        std::to_string(lists.size()) + " lists", [&] { optimize(lists); }, "indices");
+  for (const int index : {-1, std::numeric_limits<int>::min(), 12, std::numeric_limits<int>::max()}) {
+    expectRefused(
+        "ray " + std::to_string(index),
+        [&] {
+          optimize({{0, index}, {0}});
+        },
+        "indices[0]");
+    expectRefused(
+        "point " + std::to_string(index),
+        [&] {
+          optimize({{0}, {0, index}});
+        },
+        "indices[1]");
+  }
+  expectRefused(
+      "repeated ray",
+      [&] {
+        optimize({{1, 2, 1}, {0}});
+      },
+      "indices[0]");
+  expectRefused(
+      "repeated point",
+      [&] {
+        optimize({{0}, {0, 1, 2, 3, 4, 5, 6, 7, 3}});
+      },
+      "indices[1]");
+  for (const WrongPose& wrong : wrongPoses())
+    expectRefused(
+        wrong.name, [&] { hybrid_pose::optimize_nonlinear(adapter, wrong.pose); }, "initial");
+  std::vector<WrongField> fields = wrongRayFields();
+  const std::vector<WrongField> ofPoints = wrongPointFields();
+  fields.insert(fields.end(), ofPoints.begin(), ofPoints.end());
+  for (const WrongField& field : fields) {
+    AlteredAdapter altered;
+    field.apply(altered);
+    expectRefused(
+        field.name, [&] { hybrid_pose::optimize_nonlinear(altered, start); }, field.getter);
+  }
+  for (const double value : {kNaN, kInfinite, -1.0}) {
+    AlteredAdapter altered;
+    altered.rigFocalLength = value;
+    expectRefused(
+        "rig focal length " + std::to_string(value), [&] { hybrid_pose::optimize_nonlinear(altered, start); },
+        "getRigFocalLength(0)");
+  }
+}
+
+// The errors answer every number that is not finite by infinity, an outlier for any threshold.
+TEST(Misuse, residuals_of_numbers_that_are_not_finite_are_infinite) {
+  Random random(testSeed() + 802);
+  const FocalPose query = cameraLookingAtOrigin(random, 20, 1000), map = cameraLookingAtOrigin(random, 20, 1000);
+  const Eigen::Vector3d image = project(query, Eigen::Vector3d::Zero()).homogeneous(), point = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d bearing(0, 0, 1);
+  const auto reprojection = [&](const FocalPose& pose, const Eigen::Vector3d& p, const Eigen::Vector3d& x) {
+    EXPECT_EQ(hybrid_pose::reprojectionError(pose, p, x), kInfinite);
+  };
+  const auto sampson = [&](const FocalPose& pose, const Eigen::Vector3d& p, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                           const Eigen::Matrix3d& r,
+                           double g) { EXPECT_EQ(hybrid_pose::sampsonError(pose, p, b, c, r, g), kInfinite); };
+  ASSERT_LT(hybrid_pose::reprojectionError(query, image, point), 1);
+  ASSERT_LT(hybrid_pose::sampsonError(query, image, bearing, map.position, map.rotation, 1000), 1);
+
+  for (const double value : notFinite()) {
+    SCOPED_TRACE(value);
+    for (int k = 0; k < 3; ++k) {
+      SCOPED_TRACE(k);
+      const auto with = [&](Eigen::Vector3d v) {
+        v[k] = value;
+        return v;
+      };
+      reprojection(query, with(image), point);
+      reprojection(query, image, with(point));
+      sampson(query, with(image), bearing, map.position, map.rotation, 1000);
+      sampson(query, image, with(bearing), map.position, map.rotation, 1000);
+      sampson(query, image, bearing, with(map.position), map.rotation, 1000);
+      for (int j = 0; j < 3; ++j) {
+        Eigen::Matrix3d rotation = map.rotation;
+        rotation(j, k) = value;
+        sampson(query, image, bearing, map.position, rotation, 1000);
+      }
+    }
+    sampson(query, image, bearing, map.position, map.rotation, value);
+  }
+  for (const WrongPose& wrong : wrongPoses()) {
+    FocalPose pose = query;  // the wrong number in an otherwise good pose
+    for (int k = 0; k < 3; ++k) {
+      if (!std::isfinite(wrong.pose.position[k])) pose.position[k] = wrong.pose.position[k];
+      for (int j = 0; j < 3; ++j)
+        if (!std::isfinite(wrong.pose.rotation(j, k))) pose.rotation(j, k) = wrong.pose.rotation(j, k);
+    }
+    if (!std::isfinite(wrong.pose.focalLength)) pose.focalLength = wrong.pose.focalLength;
+    if (pose.position.allFinite() && pose.rotation.allFinite() && std::isfinite(pose.focalLength)) continue;
+    SCOPED_TRACE(wrong.name);
+    reprojection(pose, image, point);
+    sampson(pose, image, bearing, map.position, map.rotation, 1000);
+  }
+}
+
+TEST(Misuse, unknown_solver_names_are_refused) {
+  for (const char* name : {"", "H13F", "h13f ", "p3p"})
+    expectRefused(
+        name, [&] { solverFromString(name); }, "solver");
+  for (const int value : {-1, 5, 1000})
+    expectRefused(
+        std::to_string(value), [&] { toString(static_cast<Solver>(value)); }, "solver");
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hybridgv

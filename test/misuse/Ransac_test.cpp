@@ -1,0 +1,102 @@
+// Wrong calls of hybridRansac.
+#include "Misuse.hpp"
+#include "hybridgv/sac/HybridRansac.hpp"
+
+namespace hybridgv {
+namespace test {
+namespace {
+
+using sac::HybridRansacOptions;
+
+TEST(Misuse, ransac_refuses_wrong_options) {
+  const struct {
+    const char* option;
+    std::vector<double> wrong;
+    std::function<void(HybridRansacOptions&, double)> set;
+  } rows[] = {
+      {"maxReprojectionErrorPx", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxReprojectionErrorPx = v; }},
+      {"maxEpipolarErrorPx", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxEpipolarErrorPx = v; }},
+      {"successProbability", {kNaN, kInfinite, -kInfinite, 0, 1, -0.5, 1.5}, [](auto& o, double v) { o.successProbability = v; }},
+      {"maxIterations", {0, -1}, [](auto& o, double v) { o.maxIterations = static_cast<int>(v); }},
+      {"minIterations", {-1}, [](auto& o, double v) { o.minIterations = static_cast<int>(v); }},
+      {"timeBudgetSeconds", {kNaN, -kInfinite, 0, -1}, [](auto& o, double v) { o.timeBudgetSeconds = v; }},
+      {"minFocalLength", {kNaN, kInfinite, -kInfinite, -1}, [](auto& o, double v) { o.minFocalLength = v; }},
+      {"maxFocalLength", {kNaN, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxFocalLength = v; }},
+      {"maxFocalLength", {500, 1000}, [](auto& o, double v) { o.minFocalLength = 1000, o.maxFocalLength = v; }},
+      {"threads", {-1}, [](auto& o, double v) { o.threads = static_cast<int>(v); }},
+      {"prior", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.solvers[2].prior = v; }},
+  };
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  for (const auto& row : rows)
+    for (const double value : row.wrong) {
+      HybridRansacOptions options;
+      row.set(options, value);
+      const std::string wrong = row.option + (" = " + std::to_string(value));
+      expectRefused(
+          wrong, [&] { options.check(); }, row.option);
+      expectRefused(
+          wrong, [&] { sac::hybridRansac(adapter, options); }, row.option);
+    }
+}
+
+TEST(Misuse, ransac_refuses_wrong_lists_of_solvers_and_wrong_starts) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  HybridRansacOptions options;
+  options.solvers = {};
+  expectRefused(
+      "no solver", [&] { sac::hybridRansac(adapter, options); }, "solvers");
+  options.solvers = {{Solver::P4Pf, 1}, {Solver::H13f, 1}, {Solver::P4Pf, 2}};
+  expectRefused(
+      "repeated solver", [&] { sac::hybridRansac(adapter, options); }, "solvers");
+  for (const int value : {-1, 5, 1000}) {
+    options.solvers = {{static_cast<Solver>(value), 1}};
+    expectRefused(
+        "solver " + std::to_string(value), [&] { sac::hybridRansac(adapter, options); }, "solver");
+  }
+  for (const WrongPose& wrong : wrongPoses()) {
+    options = HybridRansacOptions();
+    options.initialPose = wrong.pose;
+    expectRefused(
+        wrong.name, [&] { sac::hybridRansac(adapter, options); }, "initialPose");
+  }
+}
+
+TEST(Misuse, ransac_refuses_numbers_that_are_not_finite) {
+  std::vector<WrongField> fields = wrongRayFields();
+  const std::vector<WrongField> ofPoints = wrongPointFields();
+  fields.insert(fields.end(), ofPoints.begin(), ofPoints.end());
+  for (const double value : {kNaN, kInfinite, -1.0})
+    fields.push_back({"rig focal length " + std::to_string(value), [value](AlteredAdapter& a) { a.rigFocalLength = value; },
+                      "getRigFocalLength(0)"});
+  for (const double value : notFinite()) {
+    fields.push_back(
+        {"weight " + std::to_string(value), [value](AlteredAdapter& a) { a.weight2d2d = value; }, "getWeight2d2d(0)"});
+    fields.push_back(
+        {"weight " + std::to_string(value), [value](AlteredAdapter& a) { a.weight2d3d = value; }, "getWeight2d3d(0)"});
+  }
+  for (const WrongField& field : fields) {
+    AlteredAdapter adapter;
+    field.apply(adapter);
+    expectRefused(
+        field.name, [&] { sac::hybridRansac(adapter); }, field.getter);
+  }
+}
+
+TEST(Misuse, ransac_without_correspondences_has_a_reason) {
+  const sac::HybridRansacResult result = sac::hybridRansac(NoncentralHybridAdapter({}, {}, {}, {}, {}, {}, {}));
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(result.failureReason, sac::FailureReason::TooFewCorrespondences);
+}
+
+TEST(Misuse, unknown_reasons_are_refused) {
+  for (const int value : {-1, 1000}) {
+    expectRefused(
+        "failure", [&] { toString(static_cast<sac::FailureReason>(value)); }, "reason");
+    expectRefused(
+        "stop", [&] { toString(static_cast<sac::StopReason>(value)); }, "reason");
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hybridgv
