@@ -20,7 +20,8 @@ class PathSolver {
       : start_(start),
         homotopy_(h51f::straightHomotopy(start.parameters, target)),
         pointImage_(scalar(target.pointImage)),
-        pointImageBar_(scalar(target.pointImageBar)) {}
+        pointImageBar_(scalar(target.pointImageBar)),
+        hasInfiniteSolutions_(hasImageAtPrincipalPoint(target)) {}
 
   // The number of steps of every path in the first pass; the largest number for those that fail.
   void countSteps(int* steps) {
@@ -47,13 +48,14 @@ class PathSolver {
  private:
   static constexpr int N = h51f::kUnknowns, kMaxPaths = h51f::kMaxPaths;
   static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, h51f::kMaxStepsFirstPass};
-  static constexpr double kHopeless = 0.8;  // share of bad paths that only degenerate data have
-  static constexpr double kHuge = 1e5;
-  static constexpr int kFewestAtInfinity = 6;
+  static constexpr double kHopeless = 0.8;         // share of bad paths that only degenerate data have
+  static constexpr double kCentral = 1e-7;         // distance from the principal point; 1/4 is the mean
+  static constexpr double kHuge = 1e5;             // size of the unknowns or their reciprocals that counts as infinite
   static constexpr double kFloatConverged = 1e-4;  // last Newton step in single precision
   static constexpr double kFloatReal = 3e-2;       // single precision solutions that are this close to real may be real
-  static constexpr double kFloatDistinct = 1e-3;
-  static constexpr double kConverged = 1e-8, kDistinct = 1e-6, kReal = 1e-6, kImproper = 1e-7, kFloatImproper = 1e-3;
+  static constexpr double kFloatDistinct = 1e-2;
+  static constexpr double kConverged = 1e-8, kAlmostConverged = 1e-6, kDistinct = 1e-6, kReal = 1e-6, kImproper = 1e-7,
+                          kFloatImproper = 1e-3;
 
   using Scalar = Complex<double>;
   using DoublePoint = Point<double, N>;
@@ -109,19 +111,24 @@ class PathSolver {
     for (int i = 0; i < start_.paths; ++i) {
       for (int k = 0; k < N; ++k) point_[i].re[k] = reached[i].re[k], point_[i].im[k] = reached[i].im[k];
       state_[i] = ends[i].reached ? State::Single : State::Bad;
+      lastStep_[i] = 1;
       doubtful_[i] = !(lastStep[i] < kFloatConverged);
     }
   }
 
   // --- judging end points
 
-  // Data with solutions at infinity have at least eight of them, and single precision tracks their paths far enough. A few huge
-  // unknowns are no proof.
+  // An image point at the principal point moves solutions to infinity, and single precision follows their paths far enough. Huge
+  // unknowns alone are no proof.
   void giveUpInfinitePaths() {
-    int huge = 0;
-    for (int i = 0; i < start_.paths; ++i) huge += state_[i] == State::Bad && isHuge(i);
-    for (int i = 0; i < start_.paths && huge >= kFewestAtInfinity; ++i)
+    if (!hasInfiniteSolutions_) return;
+    for (int i = 0; i < start_.paths; ++i)
       if (state_[i] == State::Bad && isHuge(i)) state_[i] = State::AtInfinity;
+  }
+  static bool hasImageAtPrincipalPoint(const h51f::Parameters& target) {
+    bool has = norm(scalar(target.pointImage)) < kCentral;
+    for (const h51f::ComplexNumber& image : target.image) has = has || norm(scalar(image)) < kCentral;
+    return has;
   }
   bool isHuge(int i) const {
     bool huge = false;
@@ -159,22 +166,28 @@ class PathSolver {
   }
 
   void polish(const int* indices, int count) {
-    double lastStep[kMaxPaths];
-    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, kPolishSteps, kConverged, lastStep);
-    for (int i = 0; i < count; ++i) state_[indices[i]] = lastStep[indices[i]] < kConverged ? State::Double : State::Bad;
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, kPolishSteps, kConverged, lastStep_);
+    for (int i = 0; i < count; ++i) state_[indices[i]] = lastStep_[indices[i]] < kConverged ? State::Double : State::Bad;
+  }
+  template <class Condition>
+  void polishSinglesIf(Condition condition) {
+    int chosen[kMaxPaths] = {}, count = 0;
+    for (int i = 0; i < start_.paths; ++i)
+      if (state_[i] == State::Single && condition(i)) chosen[count++] = i;
+    polish(chosen, count);
+  }
+  bool isNearAnother(int i) const {
+    for (int j = 0; j < start_.paths; ++j)
+      if (j != i && !isBad(j) && coincide(i, j, kFloatDistinct)) return true;
+    return false;
   }
 
-  // Polishes what single precision cannot decide and finds what is bad.
+  // Polishes what single precision cannot decide and finds what is bad. A doubtful end may move to another one.
   void sortOut() {
-    int undecided[kMaxPaths] = {}, count = 0;
-    for (int i = 0; i < start_.paths; ++i) {
-      if (state_[i] != State::Single) continue;
-      bool decided =
-          !doubtful_[i] && !isImproper(i, kFloatImproper) && !(isReal(i, kFloatReal) && point_[i].re[H51fSystem::D] > 0);
-      for (int j = 0; j < start_.paths && decided; ++j) decided = j == i || isBad(j) || !coincide(i, j, kFloatDistinct);
-      if (!decided) undecided[count++] = i;
-    }
-    polish(undecided, count);
+    polishSinglesIf([this](int i) {
+      return doubtful_[i] || isImproper(i, kFloatImproper) || (isReal(i, kFloatReal) && point_[i].re[H51fSystem::D] > 0);
+    });
+    polishSinglesIf([this](int i) { return isNearAnother(i); });
     for (int i = 0; i < start_.paths; ++i)
       if (state_[i] == State::Double && isImproper(i, kImproper)) state_[i] = State::Bad;
     bool twin[kMaxPaths] = {};
@@ -219,7 +232,7 @@ class PathSolver {
     for (int i = 0; i < count; ++i) {
       steps += ends[i].attempts;
       point_[bad[i]] = ends[i].point;
-      state_[bad[i]] = State::AtInfinity;
+      state_[bad[i]] = isHuge(bad[i]) || round > 0 ? State::AtInfinity : State::Bad;
       if (ends[i].reached) reached[countReached++] = bad[i];
     }
     polish(reached, countReached);
@@ -232,11 +245,18 @@ class PathSolver {
   void collect(h51f::EndPoints* ends) {
     for (int i = 0; i < start_.paths; ++i) keepOneTwin(i);
     for (int i = 0; i < start_.paths; ++i) {
-      if (isBad(i)) continue;
-      ++ends->accepted;
-      if (state_[i] != State::Double || !isReal(i, kReal) || !(point_[i].re[H51fSystem::D] > 0)) continue;
-      ends->point[ends->count++] = point_[i];
+      ends->accepted += !isBad(i);
+      if (isKnown(i) && isReal(i, kReal) && point_[i].re[H51fSystem::D] > 0) ends->point[ends->count++] = point_[i];
     }
+  }
+
+  // Newton's method converges slowly, and not fully, to a solution that is almost double: of the pair, one is good enough.
+  bool isKnown(int i) const {
+    if (state_[i] == State::Double) return true;
+    if (state_[i] != State::Bad || lastStep_[i] < kConverged || !(lastStep_[i] < kAlmostConverged)) return false;
+    for (int j = 0; j < i; ++j)
+      if (isKnown(j) && coincide(i, j, kAlmostConverged)) return false;
+    return true;
   }
 
   // Of paths that ended on the same solution, the first counts.
@@ -252,7 +272,9 @@ class PathSolver {
   const h51f::StartSystem& start_;
   const h51f::Homotopy<double> homotopy_;
   const Scalar pointImage_, pointImageBar_;
+  const bool hasInfiniteSolutions_;
   DoublePoint point_[kMaxPaths];
+  double lastStep_[kMaxPaths];  // of the last polish
   State state_[kMaxPaths];
   bool doubtful_[kMaxPaths], twin_[kMaxPaths] = {};
 };
