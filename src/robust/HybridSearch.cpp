@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -21,9 +22,9 @@ constexpr double kLogFalseAlarms = -6;
 // Mean squared error of rays over the squared threshold above which they may be those of a wrong pose; 0.16 for normal errors and
 // a threshold of 2.5 standard deviations.
 constexpr double kEvenSpread = 0.18;
-// Gain of the score for which an optimization is repeated.
-constexpr double kLeastGain = 0.01;
-constexpr double kDistanceFactors[] = {1.25, 1.6};
+// Gain of the log-likelihood for which an optimization is repeated.
+constexpr double kLeastGain = 1;
+constexpr double kDistanceFactors[] = {1.25, 1.6, 0.8, 0.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 
@@ -162,34 +163,38 @@ void HybridSearch::considerSolution(const FocalPose& pose, Attempt& attempt) con
 void HybridSearch::consider(const Model& candidate) {
   Model optimized = candidate;
   if (options_.localOptimization) {
-    optimizeFrom(candidate.pose, Types{}, optimized);
+    optimized.logLikelihood = optimizer_.logLikelihood(candidate.pose);
+    ++localOptimizations_;
+    replaceIfLikelier(optimizer_.refine(candidate.pose), optimized);
     if (isBetter(optimized)) escapeLocalOptimum(optimized);
   }
   if (isBetter(optimized)) setBest(optimized);
 }
 
-// A pose that is more than chance is better than one that is not; otherwise the score decides.
+// A pose that is more than chance is better than one that is not; of optimized ones the likelier, otherwise the score decides.
 bool HybridSearch::isBetter(const Model& model) const {
   if (isSignificant(model) != bestIsSignificant_) return !bestIsSignificant_;
+  if (options_.localOptimization && hasModel()) return model.logLikelihood > best_.logLikelihood;
   return model.evaluation.score > best_.evaluation.score;
 }
 
-void HybridSearch::optimizeFrom(const FocalPose& start, const Types& types, Model& model) {
-  ++localOptimizations_;
-  const FocalPose pose = optimizer_.refine(start, types);
-  const Evaluation evaluation = scorer_.evaluate(pose);
-  if (!(evaluation.score > model.evaluation.score)) return;
+void HybridSearch::replaceIfLikelier(const FocalPose& pose, Model& model) const {
+  const double logLikelihood = optimizer_.logLikelihood(pose);
+  if (!(logLikelihood > model.logLikelihood)) return;
   model.pose = pose;
-  model.evaluation = evaluation;
+  model.logLikelihood = logLikelihood;
+  model.evaluation = scorer_.evaluate(pose);
 }
 
-// The truncated errors have local optima. With noisy points the distance and the matching focal length are too small there. The
-// right one is found from farther away, the focal length keeping the images' size.
+// Distance and focal length have almost the same effect on the images, so that the likelihood has local optima along both. The
+// right one is found from nearer or farther away, the focal length keeping the images' size.
 void HybridSearch::escapeLocalOptimum(Model& model) {
   for (const double factor : kDistanceFactors)
-    for (double before = 0; model.evaluation.score > (1 + kLeastGain) * before;) {
-      before = model.evaluation.score;
-      optimizeFrom(optimizer_.atDistance(model.pose, factor), optimizer_.moreThanChance(model.pose), model);
+    for (double before = -std::numeric_limits<double>::infinity(); model.logLikelihood > before + kLeastGain;) {
+      before = model.logLikelihood;
+      ++localOptimizations_;
+      const Types types = optimizer_.moreThanChance(model.pose);
+      replaceIfLikelier(optimizer_.settle(optimizer_.atDistance(model.pose, factor), types), model);
     }
 }
 

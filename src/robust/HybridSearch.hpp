@@ -24,6 +24,7 @@ struct Model {
   FocalPose pose;
   Evaluation evaluation;
   std::optional<Solver> solver;
+  double logLikelihood = 0;  // of an optimized one
 };
 
 // Hypotheses are tried in batches. Within a batch each one depends on its number and on what was known before the batch only, so
@@ -67,8 +68,7 @@ class HybridSearch {
   Attempt tryHypothesis(int number, Solutions& solutions) const;
   void considerSolution(const FocalPose& pose, Attempt& attempt) const;
   void consider(const Model& candidate);
-  // Optimizes a start; replaces the model if the result is better.
-  void optimizeFrom(const FocalPose& start, const Types& types, Model& model);
+  void replaceIfLikelier(const FocalPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model);
   void setBest(const Model& model);
   bool isWorthConsidering(const Attempt& candidate);

@@ -10,16 +10,14 @@ namespace {
 
 // Median of the square of one and of the sum of the squares of two standard normal variables.
 constexpr double kMedianOne = 0.4549364231195728, kMedianTwo = 1.3862943611198906;
-constexpr double kPi = 3.14159265358979323846;
 // Errors of exact data are rounding: a deviation below this share of the threshold is not measured.
 constexpr double kLeastDeviation = 1e-6;
 // A few errors do not tell their deviation. With less than this number, part of its square is that of what is expected: that of
 // the other type, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
 constexpr double kEnough = 20;
 constexpr double kExpectedPerThreshold = 1 / 2.5;
-// No truncation below this number of standard deviations.
-constexpr double kLeastTruncation = 2.5;
-constexpr int kPolishRounds = 4;
+// Ratio of deviations.
+constexpr double kClearlyLarger = 2.5;
 
 std::vector<double> below(std::vector<double> squared, double threshold) {
   const auto isOutlier = [&](double e) { return !(e < threshold * threshold); };
@@ -54,13 +52,15 @@ double deviation(const Measured& type, const Measured& other) {
   return std::max(std::sqrt(variance), kLeastDeviation * type.threshold);
 }
 
-// Inliers with standard deviation sigma and outliers of even density are equally likely at the error c sigma,
-//
-//     c^2 = 2 log(inliers / outliers x density of an inlier's error at 0 / density of outliers).
-double truncation(std::size_t inliers, std::size_t all, double densityRatio, double sigma, double threshold) {
-  const double outliers = std::max(static_cast<double>(all - inliers), 1.0);
-  const double c2 = 2 * std::log(std::max(static_cast<double>(inliers) / outliers * densityRatio, 1.0));
-  return std::min(std::max(std::sqrt(c2), kLeastTruncation) * sigma, threshold);
+TypeLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
+TypeLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
+
+// One noise for both types unless one is clearly the larger: what is common to many correspondences (errors of the poses and
+// focal lengths of the rig) does not show in their errors, so that a small difference means little.
+void shareNoise(const Measured& rays, const Measured& points, double& ray, double& point) {
+  if (std::max(ray, point) > kClearlyLarger * std::min(ray, point)) return;
+  const double m = static_cast<double>(rays.count), n = 2 * static_cast<double>(points.count);
+  if (m > 0 && n > 0) ray = point = std::sqrt((m * ray * ray + n * point * point) / (m + n));
 }
 
 }  // namespace
@@ -68,17 +68,28 @@ double truncation(std::size_t inliers, std::size_t all, double densityRatio, dou
 LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength)
     : scorer_(scorer), chance_(chance), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength) {}
 
-FocalPose LocalOptimizer::refine(const FocalPose& start, const Types& types) const {
+FocalPose LocalOptimizer::refine(const FocalPose& start) const {
   struct Stage {
     double rays, points;  // in thresholds
-    int iterations;
-    double minDecrease;
+    Steps steps;
   };
-  constexpr Stage stages[] = {{16, 2, 2, 1e-2}, {8, 2, 2, 1e-2}, {4, 1.5, 2, 1e-2}, {2, 1, 2, 1e-2}, {1, 1, 10, 1e-4}};
+  constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}, {1, 1, {10, 1e-4}}};
   FocalPose pose = start;
-  for (const Stage& stage : stages) {
-    const double rays = stage.rays * scorer_.maxEpipolarError(), points = stage.points * scorer_.maxReprojectionError();
-    pose = truncated(pose, {{rays, rays}, {points, points}}, types, stage.iterations, stage.minDecrease);
+  for (const Stage& stage : stages)
+    pose = minimized(truncatedLoss(stage.rays * scorer_.maxEpipolarError()),
+                     truncatedLoss(stage.points * scorer_.maxReprojectionError()), pose, Types{}, stage.steps);
+  return settle(pose, moreThanChance(pose));
+}
+
+FocalPose LocalOptimizer::settle(const FocalPose& start, const Types& types) const {
+  return likeliest(start, types, 2, {10, 1e-4});
+}
+
+FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Types& types, int rounds, const Steps& steps) const {
+  FocalPose pose = start;
+  for (int round = 0; round < rounds; ++round) {
+    const Noise at = noise(pose);
+    pose = minimized(at.rays.loss(), at.points.loss(), pose, types, steps);
   }
   return pose;
 }
@@ -98,20 +109,17 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
   return result;
 }
 
-FocalPose LocalOptimizer::truncated(const FocalPose& start, const Noise& noise, const Types& types, int iterations,
-                                    double minDecrease) const {
+FocalPose LocalOptimizer::minimized(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const FocalPose& start,
+                                    const Types& types, const Steps& steps) const {
   LeastSquaresOptions options;
-  options.maxIterations = iterations;
-  options.minRelativeDecrease = minDecrease;
+  options.maxIterations = steps.iterations;
+  options.minRelativeDecrease = steps.minDecrease;
   options.minFocalLength = minFocalLength_, options.maxFocalLength = maxFocalLength_;
-  return minimize(problem(noise, types), start, options).pose;
+  return minimize(problem(rayLoss, pointLoss, types), start, options).pose;
 }
 
-LeastSquaresProblem LocalOptimizer::problem(const Noise& noise, const Types& types) const {
-  const auto loss = [](const Spread& spread) {
-    return TypeLoss{Loss::Truncated, spread.truncation, 1 / (spread.deviation * spread.deviation)};
-  };
-  LeastSquaresProblem result = makeProblem(scorer_.arrays(), loss(noise.points), loss(noise.rays));
+LeastSquaresProblem LocalOptimizer::problem(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const Types& types) const {
+  LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss);
   if (!types.rays) result.rays.size = 0;
   if (!types.points) result.points.size = 0;
   return result;
@@ -129,34 +137,34 @@ Noise LocalOptimizer::noise(const FocalPose& pose) const {
   const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
   const std::vector<double> rays = scorer_.squaredRayErrors(pose), points = scorer_.squaredPointErrors(pose);
   const std::vector<double> inlierRays = below(rays, maxRay), inlierPoints = below(points, maxPoint);
-  Noise result;
   const Measured measuredRays{median(inlierRays) / kMedianOne, maxRay, inlierRays.size()};
   const Measured measuredPoints{median(inlierPoints) / kMedianTwo, maxPoint, inlierPoints.size()};
-  const double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
-  // Per pixel on a line, 1 / sqrt(2 pi sigma^2) and share / (2 threshold); per pixel of area, 1 / (2 pi sigma^2) and share / (pi
-  // threshold^2).
-  const double rayRatio = 2 * maxRay / (std::sqrt(2 * kPi) * ray * chance_.rayShare(pose.focalLength));
-  const double pointRatio = maxPoint * maxPoint / (2 * point * point * chance_.pointShare());
-  result.rays = {ray, truncation(inlierRays.size(), rays.size(), rayRatio, ray, maxRay)};
-  result.points = {point, truncation(inlierPoints.size(), points.size(), pointRatio, point, maxPoint)};
-  return result;
+  double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
+  shareNoise(measuredRays, measuredPoints, ray, point);
+  return {rayMixture(ray, {inlierRays.size(), rays.size(), maxRay, chance_.rayShare(pose.focalLength)}),
+          pointMixture(point, {inlierPoints.size(), points.size(), maxPoint, chance_.pointShare()})};
+}
+
+double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
+  const Noise at = noise(pose);
+  return at.rays.logLikelihood(scorer_.squaredRayErrors(pose)) + at.points.logLikelihood(scorer_.squaredPointErrors(pose));
 }
 
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   FinalPose result;
-  result.pose = start;
   const Types types = moreThanChance(start);
-  for (int round = 0; optimize && round < kPolishRounds; ++round)
-    result.pose = truncated(result.pose, noise(result.pose), types, 20, 1e-8);
-  // The uncertainty of the pose follows from all that was not truncated, not from the median error.
+  result.pose = optimize ? likeliest(start, types, 4, {20, 1e-8}) : start;
+  // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.
   result.noise = noise(result.pose);
-  const std::vector<double> rays = below(scorer_.squaredRayErrors(result.pose), result.noise.rays.truncation);
-  const std::vector<double> points = below(scorer_.squaredPointErrors(result.pose), result.noise.points.truncation);
+  ErrorMixture &ray = result.noise.rays, &point = result.noise.points;
+  const std::vector<double> rays = below(scorer_.squaredRayErrors(result.pose), ray.boundary);
+  const std::vector<double> points = below(scorer_.squaredPointErrors(result.pose), point.boundary);
   const Measured measuredRays{mean(rays), scorer_.maxEpipolarError(), rays.size()};
   const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
-  result.noise.rays.deviation = deviation(measuredRays, measuredPoints);
-  result.noise.points.deviation = deviation(measuredPoints, measuredRays);
-  result.information = information(problem(result.noise, types), result.pose);
+  ray.deviation = deviation(measuredRays, measuredPoints);
+  point.deviation = deviation(measuredPoints, measuredRays);
+  result.information = information(
+      problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), types), result.pose);
   return result;
 }
 

@@ -128,7 +128,7 @@ TEST(Kernels, a_pose_that_is_not_a_number_has_no_inliers) {
 
 // ---- normal equations ----
 
-constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Cauchy};
+constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Mixture};
 
 NormalEquations sums(SimdLevel level, const Data& data, const FocalPose& normalized, const TypeLoss& loss, bool points,
                      bool rays) {
@@ -148,7 +148,8 @@ FocalPose moved(const FocalPose& pose, int parameter, double step) {
 
 double expectedCost(double error, const TypeLoss& loss) {
   const double x = error * error / (loss.scale * loss.scale);
-  const double rho = loss.loss == Loss::Quadratic ? x : loss.loss == Loss::Truncated ? std::min(x, 1.) : std::log1p(x);
+  const double mixture = std::log((1 + loss.odds) / (1 + loss.odds * std::pow(1 + x, -8)));
+  const double rho = loss.loss == Loss::Quadratic ? x : loss.loss == Loss::Truncated ? std::min(x, 1.) : mixture;
   return loss.precision * loss.scale * loss.scale * rho;
 }
 
@@ -156,14 +157,13 @@ TEST(Kernels, costs_are_those_of_the_loss_at_every_level) {
   test::Random random(test::testSeed(), 13);
   const Data data(random, 61, 63);
   const FocalPose& pose = data.poses[0];  // all points in front
-  for (const Loss loss : {Loss::Truncated, Loss::Cauchy})
+  for (const Loss loss : {Loss::Truncated, Loss::Mixture})
     for (const SimdLevel level : levels()) {
-      const TypeLoss spec{loss, 1000, 0.25};  // wide: no error is infinite
+      const TypeLoss spec{loss, 1000, 0.25, 1e9};  // wide: no error is infinite
       double points = 0, rays = 0;
       for (std::size_t i = 0; i < data.scene.points.size(); ++i) points += expectedCost(data.reprojection(pose, i), spec);
       const FocalPose normalized = data.arrays.normalization().apply(pose);
       EXPECT_NEAR(sums(level, data, normalized, spec, true, false).cost, points, 1e-8 * points);
-      if (loss == Loss::Cauchy) continue;
       for (std::size_t i = 0; i < data.scene.bearings.size(); ++i) rays += expectedCost(data.sampson(pose, i), spec);
       EXPECT_NEAR(sums(level, data, normalized, spec, false, true).cost, rays, 1e-8 * rays);
     }
@@ -178,7 +178,7 @@ TEST(Kernels, gradients_are_the_central_differences_of_the_cost_at_every_level) 
       for (const SimdLevel level : levels())
         for (int k = 0; k < 4; ++k) {
           const FocalPose pose = data.arrays.normalization().apply(data.poses[static_cast<std::size_t>(k)]);
-          const TypeLoss spec{loss, 30, 2};
+          const TypeLoss spec{loss, 30, 2, 50};
           const NormalEquations at = sums(level, data, pose, spec, points, !points);
           if (!std::isfinite(at.cost)) continue;  // something is behind a camera
           for (int i = 0; i < kParameters; ++i) {
@@ -221,7 +221,7 @@ TEST(Kernels, normal_equations_are_equal_at_all_levels) {
   const Data data(random, 61, 63);
   for (const Loss loss : kLosses) {
     const FocalPose pose = data.arrays.normalization().apply(data.poses[1]);
-    const TypeLoss spec{loss, 20, 0.5};
+    const TypeLoss spec{loss, 20, 0.5, 50};
     const NormalEquations expected = sums(SimdLevel::Sse2, data, pose, spec, true, true);
     for (const SimdLevel level : levels()) {
       const NormalEquations actual = sums(level, data, pose, spec, true, true);

@@ -54,10 +54,10 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
   std::vector<SolverPrior> solvers = {
       {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
-  Scoring scoring = Scoring::Msac;               ///< what makes a pose better
+  Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized
   Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
-  bool localOptimization = true;                 ///< optimize every new best model over its inliers
-  bool finalOptimization = true;                 ///< optimize the result with a robust loss, each type weighed by its own noise
+  bool localOptimization = true;  ///< optimize promising models over both types; the likeliest is kept, the noise being estimated
+  bool finalOptimization = true;  ///< optimize the result's likelihood to full precision
   /// A pose to start from, scored before the first sample. It competes on its score alone, so a wrong one does no harm.
   std::optional<FocalPose> initialPose;
 
@@ -127,8 +127,9 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 ///     prior x P_s / cost_s,
 ///
 /// P_s the (hypergeometric) probability that a sample of solver s has inliers only, by the best model so far, cost_s its time; a
-/// solver that finds such samples much more slowly than another is not drawn. Promising models are optimized over both types,
-/// each with its own truncation. With k_s samples of solver s so far, the search ends when
+/// solver that finds such samples much more slowly than another is not drawn. Promising models are optimized over both types, and
+/// compared by their likelihoods for the noise of their inliers, so that the thresholds need not be near to it. With k_s samples
+/// of solver s so far, the search ends when
 ///
 ///     prod_s (1 - P_s)^k_s < 1 - successProbability.
 ///

@@ -192,17 +192,57 @@ Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double square
 
 using Row = Real[kParameters];
 
+inline Real toTheEighth(Real q) {
+  const Real q2 = q * q, q4 = q2 * q2;
+  return q4 * q4;
+}
+
+// The sum of logs as the log of a product, which is taken before it can overflow: every factor is from 1 to 1e9 + 1.
+class LogSum {
+ public:
+  void add(Real factor) {
+    product_ *= factor;
+    if (++factors_ == 32) flush();
+  }
+  Real value() {
+    flush();
+    return sum_;
+  }
+
+ private:
+  void flush() {
+    sum_ += mapLanes(product_, [](double value) { return std::log(value); });
+    product_ = all(1);
+    factors_ = 0;
+  }
+  Real product_ = all(1), sum_{};
+  int factors_ = 0;
+};
+
 class NormalEquationsSum {
  public:
   explicit NormalEquationsSum(const TypeLoss& loss) : loss_(loss) {}
 
-  // What the correspondences cost, and the weights of their squared errors. Those that are not valid have weight 0.
+  // Adds what the correspondences cost, and returns the weights of their squared errors. Those that are not valid have weight 0.
   Real weigh(Mask inRange, Mask valid, Real squaredError) {
-    const double scale2 = loss_.scale * loss_.scale;
-    const Real x = where(valid, squaredError / scale2, all(kInfinity));
-    const Real rho = where(inRange, this->rho(x), Real{});
-    cost_ += loss_.precision * scale2 * rho;
-    return where(inRange & valid, loss_.precision * weight(x), Real{});
+    const Real x = where(valid, squaredError / (loss_.scale * loss_.scale), all(kInfinity));
+    Real weight = all(1);
+    switch (loss_.loss) {
+      case Loss::Quadratic:
+        rho_ += where(inRange, x, Real{});
+        break;
+      case Loss::Truncated:
+        rho_ += where(inRange, where(x < 1.0, x, all(1)), Real{});
+        weight = where(x < 1.0, all(1), Real{});
+        break;
+      case Loss::Mixture: {
+        const Real power = toTheEighth(1.0 + x);
+        logs_.add(where(inRange, (1.0 + loss_.odds) / (1.0 + loss_.odds / power), all(1)));
+        weight = 8 * loss_.odds / ((1.0 + x) * (power + loss_.odds));
+        break;
+      }
+    }
+    return where(inRange & valid, loss_.precision * weight, Real{});
   }
   void add(const Row& derivatives, Real error, Real weight) {
     for (int row = 0, k = 0; row < kParameters; ++row) {
@@ -220,38 +260,16 @@ class NormalEquationsSum {
         hessian_[k] += weighted * derivatives[column] + weighted2 * derivatives2[column];
     }
   }
-  void addTo(NormalEquations& total) const {
-    total.cost += sum(cost_);
+  void addTo(NormalEquations& total) {
+    total.cost += loss_.precision * loss_.scale * loss_.scale * sum(rho_ + logs_.value());
     for (int i = 0; i < kParameters; ++i) total.gradient[i] += sum(gradient_[i]);
     for (int i = 0; i < kTriangle; ++i) total.hessian[i] += sum(hessian_[i]);
   }
 
  private:
-  Real rho(Real x) const {
-    switch (loss_.loss) {
-      case Loss::Truncated:
-        return where(x < 1.0, x, all(1));
-      case Loss::Cauchy:
-        return mapLanes(x, [](double value) { return std::log1p(value); });
-      case Loss::Quadratic:
-        break;
-    }
-    return x;
-  }
-  Real weight(Real x) const {
-    switch (loss_.loss) {
-      case Loss::Truncated:
-        return where(x < 1.0, all(1), Real{});
-      case Loss::Cauchy:
-        return 1.0 / (1.0 + x);
-      case Loss::Quadratic:
-        break;
-    }
-    return all(1);
-  }
-
   TypeLoss loss_;
-  Real cost_{}, gradient_[kParameters] = {}, hessian_[kTriangle] = {};
+  LogSum logs_;
+  Real rho_{}, gradient_[kParameters] = {}, hessian_[kTriangle] = {};
 };
 
 void addPoints(const PointArrays& points, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {

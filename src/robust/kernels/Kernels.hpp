@@ -43,7 +43,7 @@ struct Score {
 enum class Loss {
   Quadratic,  // rho = x; rays are not required to meet in front of the cameras
   Truncated,  // rho = min(x, 1)
-  Cauchy,     // rho = log(1 + x)
+  Mixture,    // rho = log((1 + a) / (1 + a / (1 + x)^8)), a = odds: see ErrorMixture
 };
 
 // How one type of correspondence enters a robust least-squares problem: the sum of precision * scale^2 rho(x) is minimised.
@@ -51,6 +51,7 @@ struct TypeLoss {
   Loss loss = Loss::Quadratic;
   double scale = 1;      // [px]
   double precision = 1;  // [1/px^2]
+  double odds = 1;       // of Loss::Mixture, at most 1e9
 };
 
 // The parameters are a small rotation in the query's frame (R -> R exp([.]x)), the position and log f. For residuals e with
