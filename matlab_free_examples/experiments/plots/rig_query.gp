@@ -1,6 +1,6 @@
 # A query rig of three calibrated cameras, by the number of matches per camera.
 data = folder . "/rig_query.csv"
-eval "set terminal " . terminal(1000, 400)
+eval "set terminal " . terminal(860, 360)
 set output output("rig_query")
 set multiplot layout 1, 2 title "Query rig: OpenGV's gp3p with all of its cameras, HybridGV with one of unknown focal length" margins 0.08, 0.99, 0.14, 0.9 spacing 0.1, 0.05
 # The three rows of every number of matches.

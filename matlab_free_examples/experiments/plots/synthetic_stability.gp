@@ -1,7 +1,7 @@
 # Histogram of log10 of the relative focal error of noiseless problems.
 data = folder . "/synthetic_stability.csv"
 solvers = "P4Pf P3.5Pf H13f H32f H51f[1] H51f[5]"
-eval "set terminal " . terminal(750, 450)
+eval "set terminal " . terminal(640, 380)
 set output output("synthetic_stability")
 set title "Numerical stability: noiseless scenes, random motion"
 set xlabel "log10 of the relative error of the focal length (bins of 0.5)"
