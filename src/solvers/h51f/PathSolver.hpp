@@ -42,6 +42,7 @@ class PathSolver {
       const int steps = secondPass(round);
       spent += steps, ends->steps += steps;
     }
+    if (polishFailed()) sortOut();
     collect(ends);
   }
 
@@ -165,8 +166,8 @@ class PathSolver {
            norm(pointImageBar_ * d - 2 * c * (y * scale * reciprocal(at(i, H51fSystem::Alpha)))) < tolerance;
   }
 
-  void polish(const int* indices, int count) {
-    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, kPolishSteps, kConverged, lastStep_);
+  void polish(const int* indices, int count, int steps = kPolishSteps) {
+    newtonSteps<H51fSystem, Doubles, Pivoting::Rows>(homotopy_, 1, point_, indices, count, steps, kConverged, lastStep_);
     for (int i = 0; i < count; ++i) state_[indices[i]] = lastStep_[indices[i]] < kConverged ? State::Double : State::Bad;
   }
   template <class Condition>
@@ -242,6 +243,18 @@ class PathSolver {
 
   // --- result
 
+  // A path to a solution that is almost double may fail shortly before its end, but close enough for Newton's method, which takes
+  // many steps there. Returns whether there are such paths.
+  bool polishFailed() {
+    int finite[kMaxPaths] = {}, count = 0;
+    for (int i = 0; i < start_.paths; ++i) {
+      const bool slow = state_[i] == State::Bad && !(lastStep_[i] < kConverged);
+      if (slow || (state_[i] == State::AtInfinity && !isHuge(i))) finite[count++] = i;
+    }
+    polish(finite, count, kManyPolishSteps);
+    return count > 0;
+  }
+
   void collect(h51f::EndPoints* ends) {
     for (int i = 0; i < start_.paths; ++i) keepOneTwin(i);
     for (int i = 0; i < start_.paths; ++i) {
@@ -267,7 +280,7 @@ class PathSolver {
     state_[i] = State::Double;
   }
 
-  static constexpr int kPolishSteps = 6;
+  static constexpr int kPolishSteps = 6, kManyPolishSteps = 30;
 
   const h51f::StartSystem& start_;
   const h51f::Homotopy<double> homotopy_;
