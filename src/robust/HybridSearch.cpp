@@ -14,7 +14,7 @@ namespace robust {
 namespace {
 
 // Batches grow, because what was learnt from one steers the next.
-constexpr int kFirstBatch = 16, kLargestBatch = 128;
+constexpr int kFirstBatch = 16, kLargestBatch = 256;
 // Streams of random numbers apart from those of the hypotheses.
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
@@ -166,7 +166,6 @@ void HybridSearch::consider(const Model& candidate) {
     optimized.logLikelihood = optimizer_.logLikelihood(candidate.pose);
     ++localOptimizations_;
     replaceIfLikelier(optimizer_.refine(candidate.pose), optimized);
-    if (isBetter(optimized)) escapeLocalOptimum(optimized);
   }
   if (isBetter(optimized)) setBest(optimized);
 }
@@ -188,11 +187,11 @@ void HybridSearch::replaceIfLikelier(const FocalPose& pose, Model& model) const 
 
 // Distance and focal length have almost the same effect on the images, so that the likelihood has local optima along both. The
 // right one is found from nearer or farther away, the focal length keeping the images' size.
-void HybridSearch::escapeLocalOptimum(Model& model) {
+void HybridSearch::escapeLocalOptimum(Model& model) const {
+  model.logLikelihood = optimizer_.logLikelihood(model.pose);
   for (const double factor : kDistanceFactors)
     for (double before = -std::numeric_limits<double>::infinity(); model.logLikelihood > before + kLeastGain;) {
       before = model.logLikelihood;
-      ++localOptimizations_;
       const Types types = optimizer_.moreThanChance(model.pose);
       replaceIfLikelier(optimizer_.settle(optimizer_.atDistance(model.pose, factor), types), model);
     }
@@ -246,6 +245,7 @@ bool HybridSearch::isDone() {
 }
 
 FinalPose HybridSearch::finish(bool optimize) {
+  if (optimize) escapeLocalOptimum(best_);
   FinalPose result = optimizer_.polish(best_.pose, optimize);
   best_.pose = result.pose;
   best_.evaluation = scorer_.evaluate(best_.pose);

@@ -69,7 +69,7 @@ class HybridSearch {
   void considerSolution(const FocalPose& pose, Attempt& attempt) const;
   void consider(const Model& candidate);
   void replaceIfLikelier(const FocalPose& pose, Model& model) const;
-  void escapeLocalOptimum(Model& model);
+  void escapeLocalOptimum(Model& model) const;
   void setBest(const Model& model);
   bool isWorthConsidering(const Attempt& candidate);
   // log10 of the probability that a wrong pose looks as good, and of the number of poses tried so far.
