@@ -19,9 +19,9 @@ constexpr int kFirstBatch = 16, kLargestBatch = 256;
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
 constexpr double kLogFalseAlarms = -6;
-// Mean squared error of rays over the squared threshold above which they may be those of a wrong pose; 0.16 for normal errors and
-// a threshold of 2.5 standard deviations.
-constexpr double kEvenSpread = 0.18;
+// The same without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
+// every way, and up to half of them are inliers there.
+constexpr double kLogFalseAlarmsOfRays = -25;
 // Gain of the log-likelihood for which an optimization is repeated.
 constexpr double kLeastGain = 1;
 constexpr double kDistanceFactors[] = {1.25, 1.6, 0.8, 0.6};
@@ -252,21 +252,11 @@ FinalPose HybridSearch::finish(bool optimize) {
   return result;
 }
 
-// Rays alone can agree with a pose near the right one better than with any wrong one, but not well: their errors then spread
-// evenly up to the threshold (mean square 1/3 of its square), while those of a right pose gather at 0.
-bool HybridSearch::looksTruncated() const {
-  double sum = 0;
-  int count = 0;
-  for (const double squared : scorer_.squaredRayErrors(best_.pose))
-    if (squared < std::pow(scorer_.maxEpipolarError(), 2)) sum += squared, ++count;
-  return sum > kEvenSpread * count * std::pow(scorer_.maxEpipolarError(), 2);
-}
-
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
 // chance, with one parameter left to fit.
 sac::FailureReason HybridSearch::verify(bool isRegular) const {
-  if (!isSignificant(best_)) return sac::FailureReason::InliersMayBeChance;
-  if (!chance_.pointsAreMoreThanChance(best_.evaluation.points, sampler_.numberPoints()) && looksTruncated())
+  const bool hasPoints = chance_.pointsAreMoreThanChance(best_.evaluation.points, sampler_.numberPoints());
+  if (!(logChance(best_) + logTests() < (hasPoints ? kLogFalseAlarms : kLogFalseAlarmsOfRays)))
     return sac::FailureReason::InliersMayBeChance;
   std::vector<char> rays, points;
   scorer_.inliers(best_.pose, rays, points);

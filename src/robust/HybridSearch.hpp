@@ -79,7 +79,6 @@ class HybridSearch {
   bool isBetter(const Model& model) const;
   bool isDone();
   bool isOutOfTime() const;
-  bool looksTruncated() const;
   Support support(const Evaluation& evaluation) const;
 
   const sac::HybridRansacOptions& options_;

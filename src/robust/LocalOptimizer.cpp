@@ -25,7 +25,8 @@ std::vector<double> below(std::vector<double> squared, double threshold) {
   return squared;
 }
 
-double median(std::vector<double> values) {
+// Reorders the values.
+double median(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -135,14 +136,15 @@ Types LocalOptimizer::moreThanChance(const FocalPose& pose) const {
 
 Noise LocalOptimizer::noise(const FocalPose& pose) const {
   const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
-  const std::vector<double> rays = scorer_.squaredRayErrors(pose), points = scorer_.squaredPointErrors(pose);
-  const std::vector<double> inlierRays = below(rays, maxRay), inlierPoints = below(points, maxPoint);
-  const Measured measuredRays{median(inlierRays) / kMedianOne, maxRay, inlierRays.size()};
-  const Measured measuredPoints{median(inlierPoints) / kMedianTwo, maxPoint, inlierPoints.size()};
+  std::vector<double> rays = below(scorer_.squaredRayErrors(pose), maxRay);
+  std::vector<double> points = below(scorer_.squaredPointErrors(pose), maxPoint);
+  const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
+  const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
   double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
   shareNoise(measuredRays, measuredPoints, ray, point);
-  return {rayMixture(ray, {inlierRays.size(), rays.size(), maxRay, chance_.rayShare(pose.focalLength)}),
-          pointMixture(point, {inlierPoints.size(), points.size(), maxPoint, chance_.pointShare()})};
+  const HybridArrays& arrays = scorer_.arrays();
+  return {rayMixture(ray, {rays.size(), arrays.rays().size(), maxRay, chance_.rayShare(pose.focalLength)}),
+          pointMixture(point, {points.size(), arrays.points().size(), maxPoint, chance_.pointShare()})};
 }
 
 double LocalOptimizer::logLikelihood(const FocalPose& pose) const {

@@ -1,6 +1,7 @@
 // H13f, P3.5Pf and P4Pf: what holds for all solvers with three 2D-3D points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -63,6 +64,46 @@ TEST_P(ThreePointSolver, FindsTheTruthAndReturnsOnlySolutions) {
     }
   }
   EXPECT_LE(lost, GetParam().allowedFailures);
+}
+
+// Median relative errors of the focal length [%] with noisy image points: of the solution returned first and of the best one.
+struct FocalErrors {
+  double first, best;
+};
+
+FocalErrors focalErrors(const SolverCase& solver, double imageNoise, int count) {
+  std::vector<double> first, best;
+  for (int i = 0; i < count; ++i) {
+    Random random(testSeed(), static_cast<std::uint64_t>(i));
+    MinimalProblem problem = makeMinimalProblem(random, solver.raysPerCamera, solver.points);
+    for (solvers::PointMatch& match : problem.points)
+      match.u += imageNoise * random.normal(), match.v += imageNoise * random.normal();
+    double least = 100, ofFirst = 100;  // no solution: 100 %
+    const FocalPoses poses = solve(solver, problem);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const double error = 100 * std::abs(poses[k].focalLength / problem.truth.focalLength - 1);
+      if (k == 0) ofFirst = error;
+      least = std::min(least, error);
+    }
+    first.push_back(ofFirst), best.push_back(least);
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+  };
+  return {median(first), median(best)};
+}
+
+// The eighth equation ranks P4Pf's solutions so well that the first one is as good as the best of P3.5Pf, which can be known only
+// with the truth. (Four times 20000 problems, 0.5 px: 3.58 to 3.73 % of P4Pf, its best 3.48 to 3.61 %; 3.59 to 3.81 % of P3.5Pf.)
+// Allowed are 3 % for the noise of the medians.
+TEST(ThreePointSolvers, FirstSolutionOfP4pfIsAsGoodAsTheBestOfP35pfUnderNoise) {
+  for (const double noise : {0.1, 0.5}) {
+    const FocalErrors p4pf = focalErrors(kP4pf, noise, 20000), p35pf = focalErrors(kP35pf, noise, 20000);
+    EXPECT_LT(p4pf.first, 1.03 * p35pf.best) << noise;
+    EXPECT_LT(p4pf.first, 1.1 * p4pf.best) << "the ranking loses little, at " << noise;
+    EXPECT_LT(p4pf.first, p35pf.first);
+  }
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
   std::vector<SolverPrior> solvers = {
-      {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 0.5}, {Solver::H51f, 0.25}};
+      {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
   Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized
   Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
   bool localOptimization = true;  ///< optimize promising models over both types; the likeliest is kept, the noise being estimated
