@@ -1,7 +1,6 @@
 // Errors and times of several methods over many scenes; one row per method.
 #pragma once
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,6 +10,7 @@
 #include "../common/CsvFile.hpp"
 #include "../common/PoseError.hpp"
 #include "../common/Statistics.hpp"
+#include "../common/processorSeconds.hpp"
 #include "MinimalProblem.hpp"
 
 // Of the solution nearest to the truth in rotation and focal length together; all infinite if there is no solution.
@@ -30,12 +30,12 @@ class ErrorTable {
  public:
   using Key = std::vector<std::string>;  // the first columns
 
-  // Runs `solve`, which returns poses, and files their error and the time taken (and the iterations, read afterwards).
+  // Runs `solve`, which returns poses, and files their error and the processor time taken (and the iterations, read afterwards).
   template <class Solve>
   void add(const Key& key, const hybridgv::FocalPose& truth, const Solve& solve, const int* iterations = nullptr) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = processorSeconds();
     const hybridgv::FocalPoses poses = solve();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = processorSeconds() - start;
     const PoseError error = errorOfNearest(poses, truth);
     if (rows_.count(key) == 0) order_.push_back(key);
     Row& row = rows_[key];
@@ -49,9 +49,8 @@ class ErrorTable {
 
   void write(const std::string& folder, const std::string& name, const std::string& remark, const std::string& keyColumns) const {
     CsvFile csv(folder, name,
-                {remark,
-                 "good_percent: rotation below 5 degrees and focal length within 20 %; other columns: medians; position: units, "
-                 "cube side 10"},
+                {remark, "good_percent: rotation below 5 degrees and focal length within 20 %",
+                 "other columns: medians; position: units, cube side 10; microseconds of processor time"},
                 keyColumns + ",good_percent,rotation_deg,position,focal_percent,microseconds,iterations");
     for (const Key& key : order_) {
       const Row& row = rows_.at(key);

@@ -4,7 +4,6 @@
 #include <hybridgv/absolute_pose/methods.hpp>
 #include <hybridgv/hybrid_pose/methods.hpp>
 
-#include <ctime>
 #include <memory>
 #include <opengv/absolute_pose/methods.hpp>
 
@@ -13,6 +12,7 @@
 #include "../common/ProgressBar.hpp"
 #include "../common/Statistics.hpp"
 #include "../common/parallelFor.hpp"
+#include "../common/processorSeconds.hpp"
 #include "Gp3pProblem.hpp"
 #include "MinimalProblem.hpp"
 
@@ -85,15 +85,14 @@ Statistics countSolutions(const Row& row, const Settings& settings, ProgressBar&
   return result;
 }
 
-// Microseconds of processor time per call of one solver, a pass over all its problems at a time. Other programs that want the same
-// processor do not count.
+// Microseconds of processor time per call of one solver, a pass over all its problems at a time.
 class Stopwatch {
  public:
   template <class Call>
   void pass(std::size_t calls, const Call& call) {
-    const std::clock_t start = std::clock();
+    const double start = processorSeconds();
     for (std::size_t i = 0; i < calls; ++i) solutions_ += call(i);
-    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    const double seconds = processorSeconds() - start;
     microseconds_.push_back(1e6 * seconds / static_cast<double>(calls));
   }
   double least() const { return quantile(microseconds_, 0); }
@@ -133,8 +132,8 @@ void run(const Settings& settings) {
   CsvFile csv(
       settings.options.output, "solver_table.csv",
       {text(settings.problems, " noiseless problems, seed ", settings.options.seed, "; times: ", settings.repetitions,
-            " passes over ", settings.timed, " problems, one thread, gp3p ", gp3p.middle(), " us (median); hybridgv ",
-            hybridgv::version()),
+            " passes (processor time) over ", settings.timed, " problems, one thread, gp3p ", gp3p.middle(),
+            " us (median); hybridgv ", hybridgv::version()),
        "paper_template: the size printed in Bhayani et al., WACV 2023, Table 1; everything else is measured here; real "
        "solutions: with a positive focal length, in front of all cameras"},
       "problem,configuration,solutions_at_most,most_real_solutions,mean_real_solutions,core,paper_template,microseconds_median,"
