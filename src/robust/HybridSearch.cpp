@@ -13,8 +13,8 @@ namespace hybridgv {
 namespace robust {
 namespace {
 
-// Batches grow, because what was learnt from one steers the next.
-constexpr int kFirstBatch = 16, kLargestBatch = 256;
+// Batches grow, because what was learnt from one steers the next: to 128 samples, then with a quarter of all before.
+constexpr int kFirstBatch = 16, kLargestBatch = 128, kLargestPart = 4;
 // Streams of random numbers apart from those of the hypotheses.
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
@@ -88,7 +88,7 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
 void HybridSearch::run() {
   if (options_.initialPose) tryInitialPose();
   if (choice_.strategies().empty()) return;
-  for (int batch = kFirstBatch; !isDone(); batch = std::min(2 * batch, kLargestBatch))
+  for (int batch = kFirstBatch; !isDone(); batch = std::min(2 * batch, std::max(kLargestBatch, iterations_ / kLargestPart)))
     tryBatch(std::min(batch, options_.maxIterations - iterations_));
 }
 
