@@ -89,19 +89,19 @@ FocalPose LocalOptimizer::settle(const FocalPose& start, const Types& types) con
 FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Types& types, int rounds, const Steps& steps) const {
   FocalPose pose = start;
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(pose);
+    const Noise at = noise(pose, types);
     pose = minimized(at.rays.loss(), at.points.loss(), pose, types, steps);
   }
   return pose;
 }
 
 FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const {
-  std::vector<char> rays, points;
-  scorer_.inliers(pose, rays, points);
+  const std::vector<double> squaredErrors = scorer_.squaredPointErrors(pose);
+  const double squaredThreshold = scorer_.maxReprojectionError() * scorer_.maxReprojectionError();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i]) sum += scorer_.arrays().points()[i].point, ++count;
+  for (std::size_t i = 0; i < squaredErrors.size(); ++i)
+    if (squaredErrors[i] < squaredThreshold) sum += scorer_.arrays().points()[i].point, ++count;
   const Eigen::Vector3d middle = sum / std::max(count, 1);
   const Eigen::Vector3d axis = pose.rotation.col(2);
   FocalPose result = pose;
@@ -134,10 +134,11 @@ Types LocalOptimizer::moreThanChance(const FocalPose& pose) const {
   return types.rays || types.points ? types : Types{};
 }
 
-Noise LocalOptimizer::noise(const FocalPose& pose) const {
+Noise LocalOptimizer::noise(const FocalPose& pose, const Types& types) const {
   const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
-  std::vector<double> rays = below(scorer_.squaredRayErrors(pose), maxRay);
-  std::vector<double> points = below(scorer_.squaredPointErrors(pose), maxPoint);
+  std::vector<double> rays, points;
+  if (types.rays) rays = below(scorer_.squaredRayErrors(pose), maxRay);
+  if (types.points) points = below(scorer_.squaredPointErrors(pose), maxPoint);
   const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
   const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
   double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);

@@ -9,6 +9,11 @@
 namespace hybridgv {
 namespace robust {
 
+// The types that an optimization uses.
+struct Types {
+  bool rays = true, points = true;
+};
+
 struct Noise {
   ErrorMixture rays, points;
 };
@@ -17,11 +22,6 @@ struct FinalPose {
   FocalPose pose;
   Noise noise;
   Matrix7 information = Matrix7::Zero();  // of the pose, for this noise
-};
-
-// The types that an optimization uses.
-struct Types {
-  bool rays = true, points = true;
 };
 
 class LocalOptimizer {
@@ -39,7 +39,8 @@ class LocalOptimizer {
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
   // focal length. Without points the origin stands for them.
   FocalPose atDistance(const FocalPose& pose, double factor) const;
-  Noise noise(const FocalPose& pose) const;
+  // A type that is not used counts as absent.
+  Noise noise(const FocalPose& pose, const Types& types = {}) const;
   // Log of the likelihood of all errors, for this noise, over that of outliers only.
   double logLikelihood(const FocalPose& pose) const;
   // The types with more inliers than a wrong pose has; both if none has.
