@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <memory>
 #include <opengv/absolute_pose/NoncentralAbsoluteAdapter.hpp>
+#include <optional>
 #include <vector>
 
 #include "Random.hpp"
@@ -29,8 +29,7 @@ class Gp3pProblem {
       const Eigen::Vector3d inViewpoint = offsets_.back() + rotations_.back() * (random.uniform(4, 8) * bearings_.back());
       points_.emplace_back(truthRotation_ * inViewpoint + position);
     }
-    adapter_ =
-        std::make_unique<opengv::absolute_pose::NoncentralAbsoluteAdapter>(bearings_, cameras_, points_, offsets_, rotations_);
+    adapter_.emplace(bearings_, cameras_, points_, offsets_, rotations_);
   }
   Gp3pProblem(const Gp3pProblem&) = delete;
   Gp3pProblem& operator=(const Gp3pProblem&) = delete;
@@ -45,7 +44,8 @@ class Gp3pProblem {
   opengv::bearingVectors_t bearings_;
   std::vector<int> cameras_;
   opengv::points_t points_;
-  std::unique_ptr<opengv::absolute_pose::NoncentralAbsoluteAdapter> adapter_;
+  // Not on the heap: in C++17 a program's `new` of OpenGV's adapters is not the one that its compiled `delete` belongs to.
+  std::optional<opengv::absolute_pose::NoncentralAbsoluteAdapter> adapter_;
 };
 
 }  // namespace benchmarks
