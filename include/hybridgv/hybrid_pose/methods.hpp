@@ -92,11 +92,11 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// the processor's vector registers (SSE2, AVX2 or AVX-512, chosen at run time; the environment variable
 /// HYBRIDGV_SIMD=sse2|avx2|avx512 asks for less); the end points are polished in double precision, and doubtful paths followed
 /// again with smaller steps.
-/// - A pose may be missing where two solutions nearly coincide, or where two paths pass each other so closely that one takes
-///   the other's end. Measured: the true pose is found in more than 99.99 % of random scenes, also with planar scenes and with
-///   rigs whose baseline is a hundredth of the distance; see the CHANGELOG for the counts.
-/// - An image point exactly at the principal point moves 8 to 24 solutions to infinity, which takes three to four times as
-///   long; the others are found.
+/// - A pose may be missing where two solutions nearly coincide (of an almost double solution, one is returned, accurate to the
+///   square root of the rounding error), and where paths pass each other so closely that one is lost even with small steps in
+///   double precision. COUNTS
+/// - An image point exactly at the principal point moves 8 to 24 solutions to infinity; they are not returned, the others are, in
+///   up to 3.5 times the usual time.
 /// - Degenerate, normally nothing is returned: a repeated ray, a ray through X, all image points equal, all rays parallel, all
 ///   points on one line. The number of steps is bounded, and such data take a few milliseconds at most.
 ///

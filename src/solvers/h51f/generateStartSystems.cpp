@@ -40,9 +40,9 @@ std::vector<Sample> trainingSamples(Sharing sharing, test::Random& random) {
   const std::vector<std::vector<int>>& patterns = kPatterns[static_cast<int>(sharing)];
   std::vector<Sample> samples;
   for (int i = 0; i < kTrainingSamples; ++i) {
-    const std::vector<int>& pattern = patterns[static_cast<std::size_t>(i / 3) % patterns.size()];
+    const std::vector<int>& pattern = patterns[static_cast<std::size_t>(i) % patterns.size()];
     samples.push_back(makeSample(
-        sharing, i % 3 < 2 ? test::makeMinimalProblem(random, pattern, 1) : test::makeRigProblem(random, pattern, 0.5)));
+        sharing, i % 6 < 3 ? test::makeMinimalProblem(random, pattern, 1) : test::makeRigProblem(random, pattern, 0.5)));
   }
   return samples;
 }
