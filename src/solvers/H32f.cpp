@@ -171,7 +171,7 @@ bool isConverged(const Candidates& candidates, int i) { return candidates.step[i
 // inaccurate root (there is another one close to it, or e is close to +-1): it tries again from an accurate one.
 void solveForPose(const Forms& elimination, const Forms& exact, const Kernel& kernel, int count, Candidates& candidates) {
   double roots[hidden_variable::kBatch];
-  std::copy(candidates.e, candidates.e + hidden_variable::kBatch, roots);
+  std::copy(candidates.e, candidates.e + count, roots);
   kernel.nullVectors(elimination, count, candidates);
   kernel.newton(exact, count, candidates);
   Candidates again;

@@ -9,9 +9,8 @@ seconds=${1:?usage: run.sh SECONDS [NAME ...]}
 shift
 cd "$(dirname "$0")/../.."
 sh .ci/install_packages.sh clang-14 cmake ninja-build libeigen3-dev
-cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBUILD_SHARED_LIBS=OFF \
-  -DHYBRIDGV_BUILD_FUZZERS=ON -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF -DHYBRIDGV_BUILD_EXAMPLES=OFF >&2
-cmake --build build/fuzz >&2
+[ -f build/fuzz/CMakeCache.txt ] || cmake --preset fuzz -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF >&2
+cmake --build build/fuzz --target fuzzers >&2
 [ $# -gt 0 ] || set -- p4pf p35pf h13f h32f h51f sixpt_onefocal hybrid_ransac colmap_text colmap_binary bundler nvm problem
 
 status=0
