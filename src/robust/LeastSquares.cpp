@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hybridgv {
 namespace robust {
@@ -52,7 +53,8 @@ FocalPose moved(const FocalPose& pose, const Vector7& step, const LeastSquaresOp
   result.rotation = pose.rotation * rotationOf(step.head<3>());
   orthonormalize(result.rotation);
   result.position += step.segment<3>(3);
-  result.focalLength = std::clamp(pose.focalLength * std::exp(step[6]), options.minFocalLength, options.maxFocalLength);
+  const double least = std::max(options.minFocalLength, std::numeric_limits<double>::min());  // positive also after rounding
+  result.focalLength = std::clamp(pose.focalLength * std::exp(step[6]), least, options.maxFocalLength);
   return result;
 }
 
