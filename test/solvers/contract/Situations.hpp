@@ -60,6 +60,8 @@ struct Situation {
   std::function<void(MinimalProblem&, Random&)> changeProblem;
 };
 
+inline std::ostream& operator<<(std::ostream& stream, const Situation& situation) { return stream << situation.name; }
+
 const std::vector<Situation>& situations();
 
 }  // namespace test
