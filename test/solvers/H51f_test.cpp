@@ -93,6 +93,25 @@ TEST_P(H51fLevels, FindsTheTruthInOtherScenes) {
     }
 }
 
+// Problems in which another solution lies so close to the true pose that Newton's method converges slowly to either.
+TEST_P(H51fLevels, FindsAlmostDoubleSolutions) {
+  const struct {
+    std::uint64_t seed, stream;
+    RaysPerCamera pattern;
+    double rigHalfSize;  // 0: the usual scene
+  } problems[] = {{90210, 774, {2, 1, 1, 1}, 0.1},
+                  {90210, 776, {2, 2, 1}, 0.1},
+                  {90210, 776, {2, 2, 1}, 0.5},
+                  {90210, 1295, {3, 1, 1}, 0.1},
+                  {424242, 12372, {3, 1, 1}, 0}};
+  for (const auto& p : problems) {
+    Random random(p.seed, p.stream);
+    const MinimalProblem problem =
+        p.rigHalfSize > 0 ? makeRigProblem(random, p.pattern, p.rigHalfSize) : makeMinimalProblem(random, p.pattern, 1);
+    EXPECT_LT(distanceToNearest(solve(problem, GetParam()), problem.truth), 1e-5) << p.seed << ", " << p.stream;
+  }
+}
+
 // Data for which the solutions are not finitely many, not distinct or not all finite; and worse.
 struct DegenerateCase {
   const char* name;
