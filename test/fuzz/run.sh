@@ -8,7 +8,7 @@ set -e
 seconds=${1:?usage: run.sh SECONDS [NAME ...]}
 shift
 cd "$(dirname "$0")/../.."
-sh .ci/install_packages.sh clang-14 cmake ninja-build libeigen3-dev
+sh .ci/install_packages.sh clang-14 libclang-rt-14-dev cmake ninja-build libeigen3-dev
 [ -f build/fuzz/CMakeCache.txt ] || cmake --preset fuzz -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF >&2
 cmake --build build/fuzz --target fuzzers >&2
 [ $# -gt 0 ] || set -- p4pf p35pf h13f h32f h51f sixpt_onefocal hybrid_ransac colmap_text colmap_binary bundler nvm problem
