@@ -455,7 +455,7 @@ void BinaryFormRoots<D>::SimpleRoots::refine() {
     for (int k = 0; k <= D; ++k) coefficients_[k][lane] = coefficients_[k][0];
   }
   Pair t[kPairs], low[kPairs], high[kPairs];
-  for (int j = 0; j < kPairs; ++j) t[j] = load(start_ + 2 * j), low[j] = Pair{0, 0}, high[j] = Pair{1, 1};
+  for (int j = 0; j < kPairs; ++j) t[j] = load(&start_[2 * j]), low[j] = Pair{0, 0}, high[j] = Pair{1, 1};
   for (int iteration = 0; iteration < 60; ++iteration) {
     Pair value[kPairs], slope[kPairs], curvature[kPairs], step{0, 0};  // curvature: half the second derivative
     for (int j = 0; j < kPairs; ++j) value[j] = load(coefficients_[D] + 2 * j), slope[j] = curvature[j] = Pair{0, 0};
@@ -477,7 +477,7 @@ void BinaryFormRoots<D>::SimpleRoots::refine() {
     if (step[0] < 1e-4 && step[1] < 1e-4) break;
   }
   double root[2 * kPairs];
-  for (int j = 0; j < kPairs; ++j) store(root + 2 * j, t[j]);
+  for (int j = 0; j < kPairs; ++j) store(&root[2 * j], t[j]);
   for (int lane = 0; lane < count_; ++lane) {
     const double c = c0_[lane] + root[lane] * c1_[lane], s = s0_[lane] + root[lane] * s1_[lane];
     const double scale = 1 / std::sqrt(c * c + s * s);

@@ -32,7 +32,7 @@ const char* toString(SimdLevel level) {
 }
 
 static SimdLevel requestedSimdLevel() {
-  const char* name = std::getenv("HYBRIDGV_SIMD");
+  const char* name = std::getenv("HYBRIDGV_SIMD");  // NOLINT(concurrency-mt-unsafe): read once, never set
   for (const SimdLevel level : {SimdLevel::Sse2, SimdLevel::Avx2, SimdLevel::Avx512})
     if (name && std::strcmp(name, toString(level)) == 0) return level;
   return SimdLevel::Avx512;
