@@ -3,7 +3,7 @@
 #
 # Starts from the inputs in test/fuzz/corpus and from what earlier runs found (build/fuzz/corpus). An input that breaks a promise,
 # or takes more than 30 seconds, is left in build/fuzz/faults; to see the fault again: build/fuzz/test/fuzz/NAME_fuzzer FILE.
-# Exit status 1 if there was one.
+# Exit status 1 if there was one. HYBRIDGV_FUZZ_SEED (default: another one every time) makes a run repeatable, up to its length.
 set -e
 seconds=${1:?usage: run.sh SECONDS [NAME ...]}
 shift
@@ -21,7 +21,7 @@ for name; do
   mkdir -p "$corpus"
   result=clean
   # Not all of them use the words of the dictionary, which is no harm.
-  build/fuzz/test/fuzz/"$name"_fuzzer -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -malloc_limit_mb=256 \
+  build/fuzz/test/fuzz/"$name"_fuzzer -seed="${HYBRIDGV_FUZZ_SEED:-0}" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -malloc_limit_mb=256 \
     -max_len=4096 -dict=test/fuzz/readers.dict -print_final_stats=1 -artifact_prefix=build/fuzz/faults/"$name"- \
     "$corpus" test/fuzz/corpus/"$name" 2>"$log" || { result="FAULT, see $log"; status=1; }
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
