@@ -53,7 +53,7 @@ struct Query {
   double depth;  // median of the map's points that the photo sees: the yardstick of its position error
 };
 
-std::vector<Query> makeQueries(const SparseModel& map, const Settings& settings) {
+std::vector<Query> makeQueries(const SparseModel& map) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < map.images.size(); ++i) {
     const hybridgv::sfm::Image& image = map.images[i];
@@ -61,9 +61,7 @@ std::vector<Query> makeQueries(const SparseModel& map, const Settings& settings)
     for (const hybridgv::sfm::Observation& observation : image.observations)
       if (observation.point != observation.kNoPoint)
         depths.push_back(image.rotation.col(2).dot(map.points[observation.point].position - image.position));
-    if (image.registered && !depths.empty())
-      queries.push_back(
-          {injectOutliers(makeLocalizationProblem(map, i), settings.outlierShare, settings.options.seed + i), median(depths)});
+    if (image.registered && !depths.empty()) queries.push_back({makeLocalizationProblem(map, i), median(depths)});
   }
   return queries;
 }
@@ -85,8 +83,9 @@ struct Attempt {
 
 // The position error is in percent of the query's depth.
 Attempt localize(const Query& query, const Settings& settings, const HybridRansacOptions& options) {
+  const LocalizationProblem problem = injectOutliers(query.problem, settings.outlierShare, options.seed);
   const double start = threadSeconds();
-  const hybridgv::sac::HybridRansacResult result = hybridRansac(query.problem.adapter, options);  // in this thread
+  const hybridgv::sac::HybridRansacResult result = hybridRansac(problem.adapter, options);  // in this thread
   Attempt attempt;
   attempt.success = result.success;
   attempt.milliseconds = 1e3 * (threadSeconds() - start), attempt.iterations = result.iterations;
@@ -116,16 +115,17 @@ void writeRow(CsvFile& csv, const std::string& scene, std::size_t queries, const
 void run(const Settings& settings) {
   CsvFile csv(
       settings.options.output, "localization_table.csv",
-      {text("each photo ", settings.repetitions, " times with different seeds from ", settings.options.seed,
-            " on; wrong matches: ", 100 * settings.outlierShare, " %; thresholds ", settings.ransac.maxReprojectionErrorPx,
-            " px (2D-3D), ", settings.ransac.maxEpipolarErrorPx, " px (2D-2D); hybridgv ", hybridgv::version()),
+      {text("each photo ", settings.repetitions, " times, with other wrong matches and another seed each time, from ",
+            settings.options.seed, " on; wrong matches: ", 100 * settings.outlierShare, " %; thresholds ",
+            settings.ransac.maxReprojectionErrorPx, " px (2D-3D), ", settings.ransac.maxEpipolarErrorPx, " px (2D-2D); hybridgv ",
+            hybridgv::version()),
        text("within_percent: rotation within ", settings.maxRotationDeg, " deg and position within ", settings.maxPositionPercent,
             " % of the median depth of the photo's points; a failure counts as an infinite error; milliseconds of processor "
             "time")},
       "scene,queries,solvers,local_optimization,success_percent,within_percent,rotation_deg,position_percent_of_depth,"
       "focal_percent,milliseconds,iterations");
   for (const std::string& path : settings.maps) {
-    const std::vector<Query> queries = makeQueries(hybridgv::sfm::readModel(path), settings);
+    const std::vector<Query> queries = makeQueries(hybridgv::sfm::readModel(path));
     if (queries.empty()) throw std::invalid_argument(path + " has no photo that can be localized");
     const std::string scene = sceneName(path);
     const std::size_t attempts = queries.size() * static_cast<std::size_t>(settings.repetitions);
@@ -137,7 +137,7 @@ void run(const Settings& settings) {
           HybridRansacOptions options = settings.ransac;
           options.solvers = set.solvers;
           options.localOptimization = options.finalOptimization = optimize;
-          options.seed = settings.options.seed + i / queries.size();
+          options.seed = settings.options.seed + i;
           results[i] = localize(queries[i % queries.size()], settings, options);
           progress.step();
         });

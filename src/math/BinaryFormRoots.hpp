@@ -395,7 +395,10 @@ void BinaryFormRoots<D>::Search<Sample>::add(double c, double s) {
 template <int D>
 unsigned BinaryFormRoots<D>::Piece::signChanges() const {
   unsigned negative = 0;
-  for (int i = 0; i <= D; ++i) negative |= static_cast<unsigned>(b[i] < 0) << i;
+  for (int i = 0; i <= D; ++i) {
+    const unsigned isNegative = b[i] < 0;
+    negative |= isNegative << i;
+  }
   return (negative ^ (negative >> 1)) & ((1u << D) - 1);
 }
 
