@@ -26,9 +26,7 @@ void setCovariance(const robust::Matrix7& normalized, double unit, HybridRansacR
   Eigen::Matrix<double, robust::kParameters, 1> scale = Eigen::Matrix<double, robust::kParameters, 1>::Ones();
   scale.segment<3>(3).setConstant(unit);
   const robust::Matrix7 covariance = scale.asDiagonal() * normalized * scale.asDiagonal();
-  for (int row = 0; row < robust::kParameters; ++row)
-    for (int column = 0; column < robust::kParameters; ++column)
-      result.covariance[static_cast<std::size_t>(row * robust::kParameters + column)] = covariance(row, column);
+  Eigen::Map<robust::Matrix7>(result.covariance.data()) = covariance;
   result.focalLengthStandardDeviation = result.pose.focalLength * std::sqrt(covariance(6, 6));
 }
 
