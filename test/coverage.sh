@@ -8,6 +8,6 @@ cmake --preset coverage -G Ninja
 cmake --build build/coverage -j "$(nproc)"
 ctest --test-dir build/coverage -j "$(nproc)" --output-on-failure
 mkdir -p build/coverage/html
-gcovr --root . --object-directory build/coverage --filter src/ --filter adapters/ --exclude-throw-branches \
+gcovr --root . --object-directory build/coverage --filter src/ --filter adapters/ --exclude-throw-branches --gcov-ignore-parse-errors \
   --exclude '.*/Monodromy.*' --exclude '.*/generateStartSystems.*' \
   --txt build/coverage/coverage.txt --html-details build/coverage/html/index.html --fail-under-line 95 --print-summary
