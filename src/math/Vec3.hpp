@@ -1,20 +1,8 @@
 // 3-vectors over a double or over several doubles at once (SIMD lanes), for formulas that are evaluated at many places.
 #pragma once
 
-#include <cstring>
-
 namespace hybridgv {
 namespace math {
-
-// Two doubles in one register of the baseline instruction sets; +, -, *, / act on each, and a double counts as two equal ones.
-using Pair = double __attribute__((vector_size(16)));
-
-inline Pair loadPair(const double* values) {
-  Pair pair;
-  std::memcpy(&pair, values, sizeof pair);
-  return pair;
-}
-inline void storePair(double* values, Pair pair) { std::memcpy(values, &pair, sizeof pair); }
 
 template <class T>
 struct Vec3 {

@@ -1,7 +1,7 @@
 // The fundamental matrices that are consistent with six correspondences.
 #pragma once
 
-#include "math/Vec3.hpp"
+#include "math/Pair.hpp"
 #include "solvers/OneFocalFundamental.hpp"
 
 namespace hybridgv {

@@ -1,8 +1,7 @@
 // From a fundamental matrix F = diag(1/f, 1/f, 1) E to the focal length and the relative pose; two matrices at once.
 #pragma once
 
-#include <cmath>
-
+#include "math/Pair.hpp"
 #include "math/Vec3.hpp"
 #include "solvers/OneFocalFundamental.hpp"
 #include "solvers/OneFocalPencil.hpp"
@@ -10,7 +9,6 @@
 namespace hybridgv {
 namespace solvers {
 
-inline math::Pair squareRoot(math::Pair a) { return math::Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
 // 1 or -1
 inline math::Pair signs(math::Pair a) { return a < 0 ? math::Pair{-1, -1} : math::Pair{1, 1}; }
 
@@ -37,14 +35,14 @@ struct OneFocalDecomposition {
     using math::Pair;
     const FocalDenominator<Pair> denominator(f);
     const Pair ff = dot(f.f3, f.f3);
-    focal = ff / squareRoot(denominator.minuend - denominator.subtrahend);
-    const Pair scale = squareRoot(2 / (focal * focal * (dot(f.f1, f.f1) + dot(f.f2, f.f2)) + ff)), scaleF = scale * focal;
+    focal = ff / math::sqrt(denominator.minuend - denominator.subtrahend);
+    const Pair scale = math::sqrt(2 / (focal * focal * (dot(f.f1, f.f1) + dot(f.f2, f.f2)) + ff)), scaleF = scale * focal;
     const Rows<Pair> E{scaleF * f.f1, scaleF * f.f2, scale * f.f3};
     // cof(E) = (R b) b^T
     const Rows<Pair> cof = cofactors(E);
     const Pair sign2 = signs(dot(cof.f1, cof.f2)), sign3 = signs(dot(cof.f1 + sign2 * cof.f2, cof.f3));
     const math::Vec3<Pair> sum = cof.f1 + sign2 * cof.f2 + sign3 * cof.f3;
-    baseline = (1 / squareRoot(dot(sum, sum))) * sum;
+    baseline = (1 / math::sqrt(dot(sum, sum))) * sum;
     rotation = {cof.f1 + cross(baseline, E.f1), cof.f2 + cross(baseline, E.f2), cof.f3 + cross(baseline, E.f3)};
     baselineInQuery = {dot(rotation.f1, baseline), dot(rotation.f2, baseline), dot(rotation.f3, baseline)};
   }

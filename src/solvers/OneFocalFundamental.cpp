@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/BinaryFormRoots.hpp"
+#include "math/Pair.hpp"
 #include "math/Vec3.hpp"
 #include "solvers/OneFocalDecomposition.hpp"
 #include "solvers/OneFocalPencil.hpp"
@@ -44,16 +45,15 @@ int rootDirections(const OneFocalPencil& pencil, const SixCorrespondences& data,
     return Deflated::findSampled(
         [&](const double* c, const double* s, double* p) {
           for (int j = 0; j < Deflated::kPadded; j += 2) {
-            const Pair cs = math::loadPair(c + j), sn = math::loadPair(s + j), factor = cs * known.s - sn * known.c;
-            math::storePair(p + j, pencil.form(cs, sn) / (factor * factor));
+            const Pair cs = math::load(c + j), sn = math::load(s + j), factor = cs * known.s - sn * known.c;
+            math::store(p + j, pencil.form(cs, sn) / (factor * factor));
           }
         },
         roots);
   }
   return Full::findSampled(
       [&](const double* c, const double* s, double* p) {
-        for (int j = 0; j < Full::kPadded; j += 2)
-          math::storePair(p + j, pencil.form(math::loadPair(c + j), math::loadPair(s + j)));
+        for (int j = 0; j < Full::kPadded; j += 2) math::store(p + j, pencil.form(math::load(c + j), math::load(s + j)));
       },
       roots);
 }
@@ -163,7 +163,7 @@ int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotio
   candidates.pad();
   int count = 0;
   for (int i = 0; i < candidates.count; i += 2) {
-    Pair x = math::loadPair(candidates.x + i), c = math::loadPair(candidates.c + i), s = math::loadPair(candidates.s + i);
+    Pair x = math::load(candidates.x + i), c = math::load(candidates.c + i), s = math::load(candidates.s + i);
     const Converged converged = refine(pencil, x, c, s);
     const OneFocalDecomposition decomposition(pencil.at(x, c, s));
     const OneFocalOrientation orientation(correspondences, decomposition);
