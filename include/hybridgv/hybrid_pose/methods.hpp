@@ -53,8 +53,8 @@ HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 /// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite.
 ///
 /// Method: the cosine e between the optical axis and the line through X_1 and X_2 is the hidden variable; the 8x8 Dixon resultant
-/// of the three ray equations has degree 26 in e. Cost: about 0.65 of opengv::absolute_pose::gp3p with SSE2, 0.4 with AVX2, 0.35
-/// with AVX-512 (chosen at run time).
+/// of the three ray equations has degree 26 in e. Cost: 0.64 to 0.7 of opengv::absolute_pose::gp3p with SSE2, 0.4 with AVX2, 0.34
+/// to 0.38 with AVX-512 (chosen at run time).
 ///
 /// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
 /// correspondences", WACV 2023, which poses the problem and counts its solutions.
@@ -78,8 +78,8 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 ///
 /// Configuration [5], all five rays from one rig camera: at most 9 poses (1.6 on average). The line of sight from the rig camera
 /// to X acts as a sixth ray; the problem is relative_pose::sixpt_onefocal, and X fixes the length of the baseline. Method: the
-/// real roots of a binary form of degree 9. Cost: about a fifth of opengv::absolute_pose::gp3p (3.4 microseconds where that
-/// takes 16.5). Poses with a focal length below 5e-4 times the largest image coordinate are left out. Degenerate, nothing is
+/// real roots of a binary form of degree 9. Cost: about 0.16 of opengv::absolute_pose::gp3p (2.6 microseconds where that takes
+/// 16.4). Poses with a focal length below 5e-4 times the largest image coordinate are left out. Degenerate, nothing is
 /// returned: X and the five points in one plane (then the focal length is not determined), the query at the rig camera's centre,
 /// X there or on the line through both centres, fewer than six independent constraints (repeated correspondences, all image
 /// points equal, ..), two image points exactly at the principal point. Solved less reliably: five image points almost on one line
@@ -99,6 +99,8 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 ///   of the distance; of 60 000 with an image point at the principal point, at most two did.
 /// - An image point exactly at the principal point moves 8 to 24 solutions to infinity; they are not returned, the others are, in
 ///   up to four times the usual time.
+/// - Cost: about 8 times opengv::absolute_pose::gp3p with AVX-512 or AVX2, 23 times with SSE2; with [4] 6 and 16 times. On rigs
+///   that are small beside the distance of the scene up to three times as much.
 /// - Degenerate, normally nothing is returned: a repeated ray, a ray through X, all image points equal, all rays parallel, all
 ///   points on one line. The number of steps is bounded, and such data take a few milliseconds at most.
 ///
