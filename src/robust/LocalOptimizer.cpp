@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "robust/Leverage.hpp"
+
 namespace hybridgv {
 namespace robust {
 namespace {
@@ -16,8 +18,8 @@ constexpr double kLeastDeviation = 1e-6;
 // the other type, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
 constexpr double kEnough = 20;
 constexpr double kExpectedPerThreshold = 1 / 2.5;
-// Ratio of deviations.
-constexpr double kClearlyLarger = 2.5;
+// Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
+constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
 std::vector<double> below(std::vector<double> squared, double threshold) {
   const auto isOutlier = [&](double e) { return !(e < threshold * threshold); };
@@ -56,12 +58,14 @@ double deviation(const Measured& type, const Measured& other) {
 TypeLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
 TypeLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
 
-// One noise for both types unless one is clearly the larger: what is common to many correspondences (errors of the poses and
-// focal lengths of the rig) does not show in their errors, so that a small difference means little.
-void shareNoise(const Measured& rays, const Measured& points, double& ray, double& point) {
-  if (std::max(ray, point) > kClearlyLarger * std::min(ray, point)) return;
-  const double m = static_cast<double>(rays.count), n = 2 * static_cast<double>(points.count);
-  if (m > 0 && n > 0) ray = point = std::sqrt((m * ray * ray + n * point * point) / (m + n));
+// What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
+// least in those of rays, which give way across one line. So neither type counts as better than the other, and rays as somewhat
+// worse, unless one is clearly the noisier.
+void allowForHiddenErrors(double& ray, double& point) {
+  const double larger = std::max(ray, point);
+  if (larger > kClearlyLarger * std::min(ray, point)) return;
+  ray = kHiddenShare * larger;
+  point = larger;
 }
 
 }  // namespace
@@ -95,6 +99,21 @@ FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Types& types, 
   return pose;
 }
 
+FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Types& types, int rounds, const Steps& steps,
+                                        std::vector<double>& narrowing) const {
+  FocalPose pose = start;
+  narrowing.clear();
+  for (int round = 0; round < rounds; ++round) {
+    const Noise at = noise(pose, types);
+    LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), types);
+    if (round > 0) robust.rays.narrowing = narrowing.data();
+    narrowing = narrowingByLeverage(robust, pose);
+    robust.rays.narrowing = narrowing.data();
+    pose = minimize(robust, pose, limits(steps)).pose;
+  }
+  return pose;
+}
+
 FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const {
   const std::vector<double> squaredErrors = scorer_.squaredPointErrors(pose);
   const double squaredThreshold = scorer_.maxReprojectionError() * scorer_.maxReprojectionError();
@@ -112,11 +131,15 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
 
 FocalPose LocalOptimizer::minimized(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const FocalPose& start,
                                     const Types& types, const Steps& steps) const {
+  return minimize(problem(rayLoss, pointLoss, types), start, limits(steps)).pose;
+}
+
+LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
   LeastSquaresOptions options;
   options.maxIterations = steps.iterations;
   options.minRelativeDecrease = steps.minDecrease;
   options.minFocalLength = minFocalLength_, options.maxFocalLength = maxFocalLength_;
-  return minimize(problem(rayLoss, pointLoss, types), start, options).pose;
+  return options;
 }
 
 LeastSquaresProblem LocalOptimizer::problem(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const Types& types) const {
@@ -142,7 +165,7 @@ Noise LocalOptimizer::noise(const FocalPose& pose, const Types& types) const {
   const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
   const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
   double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
-  shareNoise(measuredRays, measuredPoints, ray, point);
+  if (!rays.empty() && !points.empty()) allowForHiddenErrors(ray, point);
   const HybridArrays& arrays = scorer_.arrays();
   return {rayMixture(ray, {rays.size(), arrays.rays().size(), maxRay, chance_.rayShare(pose.focalLength)}),
           pointMixture(point, {points.size(), arrays.points().size(), maxPoint, chance_.pointShare()})};
@@ -156,7 +179,9 @@ double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   FinalPose result;
   const Types types = moreThanChance(start);
-  result.pose = optimize ? likeliest(start, types, 4, {20, 1e-8}) : start;
+  std::vector<double> narrowing;
+  constexpr Steps kFine{20, 1e-8};
+  result.pose = optimize ? withoutLevers(likeliest(start, types, 1, kFine), types, 3, kFine, narrowing) : start;
   // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.
   result.noise = noise(result.pose);
   ErrorMixture &ray = result.noise.rays, &point = result.noise.points;
@@ -166,8 +191,10 @@ FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
   ray.deviation = deviation(measuredRays, measuredPoints);
   point.deviation = deviation(measuredPoints, measuredRays);
-  result.information = information(
-      problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), types), result.pose);
+  LeastSquaresProblem inliers =
+      problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), types);
+  if (!narrowing.empty()) inliers.rays.narrowing = narrowing.data();
+  result.information = information(inliers, result.pose);
   return result;
 }
 

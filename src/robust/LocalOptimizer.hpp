@@ -34,7 +34,8 @@ class LocalOptimizer {
   FocalPose refine(const FocalPose& start) const;
   // To a local optimum of the likelihood; the noise of each type is estimated on the way.
   FocalPose settle(const FocalPose& start, const Types& types) const;
-  // The same to full precision. Without `optimize` only the noise and the information of the start.
+  // The same to full precision, then with single rays kept from deciding alone (narrowingByLeverage). Without `optimize` only the
+  // noise and the information of the start.
   FinalPose polish(const FocalPose& start, bool optimize) const;
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
   // focal length. Without points the origin stands for them.
@@ -54,6 +55,10 @@ class LocalOptimizer {
   FocalPose minimized(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const FocalPose& start, const Types& types,
                       const Steps& steps) const;
   FocalPose likeliest(const FocalPose& start, const Types& types, int rounds, const Steps& steps) const;
+  // The same with narrowed losses of the rays, which are returned (see RayArrays; empty without rounds).
+  FocalPose withoutLevers(const FocalPose& start, const Types& types, int rounds, const Steps& steps,
+                          std::vector<double>& narrowing) const;
+  LeastSquaresOptions limits(const Steps& steps) const;
   LeastSquaresProblem problem(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const Types& types) const;
 
   const PoseScorer& scorer_;

@@ -9,16 +9,18 @@ namespace hybridgv {
 namespace robust {
 namespace {
 
-// Five rays from one camera and a point: microseconds per call.
-constexpr double kOneCameraCost = 14;
+// H51f for five rays from one camera: microseconds per call, solutions at most.
+constexpr double kOneCameraCost = 2.6;
+constexpr int kOneCameraSolutions = 9;
 // A sample gives about a third of the largest number of solutions, each of which is scored until it is hopeless.
 constexpr double kScoringCost = 0.2 / 3;
 
-void addStrategy(const solvers::MinimalSolver& solver, RayDraw rayDraw, double solverCost, double prior, const Sampler& sampler,
+double costWithScoring(double solverCost, int maxSolutions) { return solverCost + kScoringCost * maxSolutions; }
+
+void addStrategy(const solvers::MinimalSolver& solver, RayDraw rayDraw, double cost, double prior, const Sampler& sampler,
                  std::vector<Strategy>& strategies) {
   const SampleSize size{solver.rays, solver.points, rayDraw};
-  if (!sampler.canDraw(size)) return;
-  strategies.push_back({solver.id, size, solver.solve, prior, solverCost + kScoringCost * solver.maxSolutions});
+  if (sampler.canDraw(size)) strategies.push_back({solver.id, size, solver.solve, prior, cost});
 }
 
 }  // namespace
@@ -27,12 +29,14 @@ std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors
   std::vector<Strategy> result;
   for (const sac::SolverPrior& entry : priors) {
     const solvers::MinimalSolver& solver = solvers::minimalSolver(entry.solver);
+    const double cost = costWithScoring(solver.cost, solver.maxSolutions);
     if (entry.solver != Solver::H51f) {
-      addStrategy(solver, RayDraw::Uniform, solver.cost, entry.prior, sampler, result);
+      addStrategy(solver, RayDraw::Uniform, cost, entry.prior, sampler, result);
       continue;
     }
-    addStrategy(solver, RayDraw::OneCamera, kOneCameraCost, entry.prior, sampler, result);
-    if (sampler.numberCameras() > 1) addStrategy(solver, RayDraw::Spread, solver.cost, entry.prior, sampler, result);
+    const double oneCameraCost = costWithScoring(kOneCameraCost, kOneCameraSolutions);
+    addStrategy(solver, RayDraw::OneCamera, oneCameraCost, entry.prior, sampler, result);
+    if (sampler.numberCameras() > 1) addStrategy(solver, RayDraw::Spread, cost, entry.prior, sampler, result);
   }
   return result;
 }

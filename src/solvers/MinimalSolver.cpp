@@ -8,9 +8,9 @@ namespace hybridgv {
 namespace solvers {
 
 static const MinimalSolver kMinimalSolvers[] = {
-    {Solver::P4Pf, "p4pf", 0, 4, 6, 1.7, &p4pf},  {Solver::P35Pf, "p35pf", 0, 4, 10, 2.6, &p35pf},
-    {Solver::H13f, "h13f", 1, 3, 12, 4.2, &h13f}, {Solver::H32f, "h32f", 3, 2, 26, 6.5, &h32f},
-    {Solver::H51f, "h51f", 5, 1, 56, 140, &h51f},
+    {Solver::P4Pf, "p4pf", 0, 4, 6, 1.4, &p4pf},  {Solver::P35Pf, "p35pf", 0, 4, 10, 2.0, &p35pf},
+    {Solver::H13f, "h13f", 1, 3, 12, 2.7, &h13f}, {Solver::H32f, "h32f", 3, 2, 26, 8, &h32f},
+    {Solver::H51f, "h51f", 5, 1, 56, 220, &h51f},
 };
 
 const MinimalSolver& minimalSolver(Solver id) {

@@ -44,7 +44,7 @@ struct MinimalSolver {
   int rays;    // 2D-2D correspondences in a sample
   int points;  // 2D-3D correspondences in a sample
   int maxSolutions;
-  double cost;  // typical microseconds per call, for choosing between solvers
+  double cost;  // microseconds per call, between those of the instruction sets: for choosing between solvers
   SolveFunction solve;
 };
 

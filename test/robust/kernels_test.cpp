@@ -130,11 +130,13 @@ TEST(Kernels, a_pose_that_is_not_a_number_has_no_inliers) {
 
 constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Mixture};
 
-NormalEquations sums(SimdLevel level, const Data& data, const FocalPose& normalized, const TypeLoss& loss, bool points,
-                     bool rays) {
+NormalEquations sums(SimdLevel level, const Data& data, const FocalPose& normalized, const TypeLoss& loss, bool points, bool rays,
+                     const double* narrowing = nullptr) {
   NormalEquations result;
   if (points) kernels(level).addPoints(data.arrays.pointArrays(), toPlain(normalized), loss, result);
-  if (rays) kernels(level).addRays(data.arrays.rayArrays(), toPlain(normalized), loss, result);
+  RayArrays rayArrays = data.arrays.rayArrays();
+  rayArrays.narrowing = narrowing;
+  if (rays) kernels(level).addRays(rayArrays, toPlain(normalized), loss, result);
   return result;
 }
 
@@ -146,11 +148,11 @@ FocalPose moved(const FocalPose& pose, int parameter, double step) {
   return result;
 }
 
-double expectedCost(double error, const TypeLoss& loss) {
-  const double x = error * error / (loss.scale * loss.scale);
+double expectedCost(double error, const TypeLoss& loss, double narrowing = 1) {
+  const double x = narrowing * error * error / (loss.scale * loss.scale);
   const double mixture = std::log((1 + loss.odds) / (1 + loss.odds * std::pow(1 + x, -8)));
   const double rho = loss.loss == Loss::Quadratic ? x : loss.loss == Loss::Truncated ? std::min(x, 1.) : mixture;
-  return loss.precision * loss.scale * loss.scale * rho;
+  return loss.precision * loss.scale * loss.scale * rho / narrowing;
 }
 
 TEST(Kernels, costs_are_those_of_the_loss_at_every_level) {
@@ -190,6 +192,47 @@ TEST(Kernels, gradients_are_the_central_differences_of_the_cost_at_every_level) 
                 << "loss " << static_cast<int>(loss) << " points " << points << " parameter " << i;
           }
         }
+}
+
+TEST(Kernels, a_narrowed_loss_is_narrower_with_the_same_curvature_at_every_level) {
+  test::Random random(test::testSeed(), 17);
+  const Data data(random, 61, 4);
+  std::vector<double> narrowing(64, 1);
+  for (std::size_t i = 0; i < 61; ++i) narrowing[i] = random.uniform(1, 50);
+  const FocalPose pose = data.arrays.normalization().apply(data.poses[0]);
+  for (const Loss loss : kLosses)
+    for (const SimdLevel level : levels()) {
+      const TypeLoss spec{loss, 1000, 0.25, 1e9};  // wide: no error is infinite
+      double cost = 0;
+      for (std::size_t i = 0; i < data.scene.bearings.size(); ++i)
+        cost += expectedCost(data.sampson(data.poses[0], i), spec, narrowing[i]);
+      const NormalEquations at = sums(level, data, pose, spec, false, true, narrowing.data());
+      EXPECT_NEAR(at.cost, cost, 1e-8 * cost);
+      for (int i = 0; i < kParameters; ++i) {
+        const double h = 1e-6;
+        const double difference = (sums(level, data, moved(pose, i, h), spec, false, true, narrowing.data()).cost -
+                                   sums(level, data, moved(pose, i, -h), spec, false, true, narrowing.data()).cost) /
+                                  (2 * h);
+        EXPECT_NEAR(2 * at.gradient[i], difference, 1e-5 * (1 + std::abs(difference)) + 1e-13 * at.cost / h);
+      }
+    }
+}
+
+TEST(Kernels, leverages_are_equal_at_all_levels) {
+  test::Random random(test::testSeed(), 18);
+  const Data data(random, 61, 4);
+  Eigen::Matrix<double, kParameters, kParameters> covariance = Eigen::Matrix<double, kParameters, kParameters>::Identity();
+  covariance(2, 5) = covariance(5, 2) = 0.5;
+  const PlainPose pose = data.plain(data.poses[0]);
+  for (const Loss loss : kLosses) {
+    std::vector<double> expected(64), actual(64);
+    const TypeLoss spec{loss, 20, 0.5, 50};
+    kernels(SimdLevel::Sse2).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), expected.data());
+    for (const SimdLevel level : levels()) {
+      kernels(level).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), actual.data());
+      for (std::size_t i = 0; i < 61; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-9 * (1 + expected[i]));
+    }
+  }
 }
 
 // With one ray J^T J is the square of the error's derivative, which the Sampson denominator enters.

@@ -73,16 +73,16 @@ class RealModel : public testing::Test {
     std::sort(values.begin(), values.end());
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   }
-  // With rays the median error is as without them or smaller, and one photo in ten does not become much worse. Half of the stated
-  // standard deviation is allowed for the errors of the reference itself, which are the same whatever the outliers.
+  // With rays the median error is as without them or smaller, and one photo in ten does not become worse. A quarter of the stated
+  // standard deviation is allowed: by as much do medians of ten sets of outliers differ.
   void expectRaysDoNoHarm(const std::string& file) {
     for (const double outlierShare : {0., 0.3, 0.5}) {
       hybrid.clear(), points2d3d.clear();
       localizeAll(file, outlierShare, 10);
       if (IsSkipped()) return;
       const double deviation = quantile(hybrid, 0.5, [](const Errors& e) { return e.focalDeviationPercent; });
-      EXPECT_LT(quantile(hybrid, 0.5), quantile(points2d3d, 0.5) + deviation / 2) << outlierShare;
-      EXPECT_LT(quantile(hybrid, 0.9), 1.25 * quantile(points2d3d, 0.9)) << outlierShare;
+      EXPECT_LT(quantile(hybrid, 0.5), quantile(points2d3d, 0.5) + deviation / 4) << outlierShare;
+      EXPECT_LT(quantile(hybrid, 0.9), 1.05 * quantile(points2d3d, 0.9)) << outlierShare;
     }
   }
 

@@ -21,6 +21,11 @@ inline Real load(const double* from) {
   return value;
 }
 inline Real all(double value) { return value - Real{}; }
+inline bool isNone(Mask mask) {
+  long long some = 0;
+  for (int i = 0; i < HYBRIDGV_LANES; ++i) some |= mask[i];
+  return some == 0;
+}
 inline Real where(Mask mask, Real value, Real otherwise) { return mask ? value : otherwise; }
 
 template <class Function>
@@ -61,14 +66,12 @@ struct Pose {
 // Calls body(i, mask) for i = begin, begin + HYBRIDGV_LANES, .. below end; the mask tells which lanes are below it.
 template <class Body>
 inline void forRange(std::size_t begin, std::size_t end, Body body) {
-  const Mask full = Mask{} == Mask{};
-  std::size_t i = begin;
-  for (; i + HYBRIDGV_LANES <= end; i += HYBRIDGV_LANES) body(i, full);
-  if (i == end) return;
-  Mask rest = full;
-  for (int lane = 0; lane < HYBRIDGV_LANES; ++lane)
-    if (i + static_cast<std::size_t>(lane) >= end) rest[lane] = 0;
-  body(i, rest);
+  for (std::size_t i = begin; i < end; i += HYBRIDGV_LANES) {
+    Mask inRange = Mask{} == Mask{};
+    if (i + HYBRIDGV_LANES > end)
+      for (int lane = 0; lane < HYBRIDGV_LANES; ++lane) inRange[lane] = i + static_cast<std::size_t>(lane) < end ? -1 : 0;
+    body(i, inRange);
+  }
 }
 
 // ---- 2D-3D: e = f (x/z, y/z) - (u, v), (x, y, z) = R^T X - R^T p ----
@@ -197,6 +200,10 @@ inline Real toTheEighth(Real q) {
   return q4 * q4;
 }
 
+inline Real log(Real values) {
+  return mapLanes(values, [](double value) { return std::log(value); });
+}
+
 // The sum of logs as the log of a product, which is taken before it can overflow: every factor is from 1 to 1e9 + 1.
 class LogSum {
  public:
@@ -211,7 +218,7 @@ class LogSum {
 
  private:
   void flush() {
-    sum_ += mapLanes(product_, [](double value) { return std::log(value); });
+    sum_ += log(product_);
     product_ = all(1);
     factors_ = 0;
   }
@@ -219,30 +226,38 @@ class LogSum {
   int factors_ = 0;
 };
 
+// x = narrowing (error / scale)^2; that of no valid correspondence is infinite.
+inline Real relativeSquare(const TypeLoss& loss, Mask valid, Real squaredError, Real narrowing) {
+  return where(valid, narrowing * squaredError / (loss.scale * loss.scale), all(kInfinity));
+}
+
+// The derivative of rho(x) for one kind of loss; rho(infinity) has none.
+inline Real slope(const TypeLoss& loss, Real x) {
+  switch (loss.loss) {
+    case Loss::Quadratic:
+      break;
+    case Loss::Truncated:
+      return where(x < 1.0, all(1), Real{});
+    case Loss::Mixture:
+      return 8 * loss.odds / ((1.0 + x) * (toTheEighth(1.0 + x) + loss.odds));
+  }
+  return all(1);
+}
+
 class NormalEquationsSum {
  public:
   explicit NormalEquationsSum(const TypeLoss& loss) : loss_(loss) {}
 
   // Adds what the correspondences cost, and returns the weights of their squared errors. Those that are not valid have weight 0.
-  Real weigh(Mask inRange, Mask valid, Real squaredError) {
-    const Real x = where(valid, squaredError / (loss_.scale * loss_.scale), all(kInfinity));
-    Real weight = all(1);
-    switch (loss_.loss) {
-      case Loss::Quadratic:
-        rho_ += where(inRange, x, Real{});
-        break;
-      case Loss::Truncated:
-        rho_ += where(inRange, where(x < 1.0, x, all(1)), Real{});
-        weight = where(x < 1.0, all(1), Real{});
-        break;
-      case Loss::Mixture: {
-        const Real power = toTheEighth(1.0 + x);
-        logs_.add(where(inRange, (1.0 + loss_.odds) / (1.0 + loss_.odds / power), all(1)));
-        weight = 8 * loss_.odds / ((1.0 + x) * (power + loss_.odds));
-        break;
-      }
-    }
-    return where(inRange & valid, loss_.precision * weight, Real{});
+  // `narrowing` may be null.
+  Real weigh(Mask inRange, Mask valid, Real squaredError, const double* narrowing = nullptr) {
+    const Real factor = narrowing ? load(narrowing) : all(1);
+    const Real x = relativeSquare(loss_, valid, squaredError, factor);
+    if (loss_.loss == Loss::Mixture && !narrowing)
+      logs_.add(where(inRange, mixtureFactor(x), all(1)));
+    else
+      rho_ += where(inRange, rho(x) / factor, Real{});
+    return where(inRange & valid, loss_.precision * slope(loss_, x), Real{});
   }
   void add(const Row& derivatives, Real error, Real weight) {
     for (int row = 0, k = 0; row < kParameters; ++row) {
@@ -267,6 +282,19 @@ class NormalEquationsSum {
   }
 
  private:
+  Real rho(Real x) const {
+    switch (loss_.loss) {
+      case Loss::Quadratic:
+        break;
+      case Loss::Truncated:
+        return where(x < 1.0, x, all(1));
+      case Loss::Mixture:
+        return log(mixtureFactor(x));
+    }
+    return x;
+  }
+  Real mixtureFactor(Real x) const { return (1.0 + loss_.odds) / (1.0 + loss_.odds / toTheEighth(1.0 + x)); }
+
   TypeLoss loss_;
   LogSum logs_;
   Real rho_{}, gradient_[kParameters] = {}, hessian_[kTriangle] = {};
@@ -279,6 +307,7 @@ void addPoints(const PointArrays& points, const PlainPose& plainPose, const Type
     Reprojection point(points, i, pose);
     const Mask valid = point.inFront & (point.squaredError < kInfinity);
     const Real weight = sums.weigh(inRange, valid, point.squaredError);
+    if (isNone(weight > 0)) return;
     // Where there is no projection, any finite derivative will do.
     Vec& y = point.inQuery;
     y = {where(valid, y.x, Real{}), where(valid, y.y, Real{}), where(valid, y.z, all(1))};
@@ -312,41 +341,74 @@ void addPoints(const PointArrays& points, const PlainPose& plainPose, const Type
 //   dG/2 = (r3.l) (l2, -l1, 0) . rotation + R^T (w x (t x m)) h . rotation
 //        + ((l1 r1 + l2 r2) x D + h w x m) . dposition + (h f r3 . (t x m) - hq m.n) dlogf
 // where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
+[[gnu::always_inline]] inline void differentiate(const Epipolar& ray, Real variance, const Pose& pose, bool pixelVaries,
+                                                 Row& derivatives) {
+  const Real l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
+  const Vec m = ray.n - ray.alongNormal * ray.imageNormal;
+  const Vec tm = cross(ray.t, m);
+  const Vec constraintByRotation = cross(ray.image, Vec{ray.l1, ray.l2, l3});
+  const Vec mapByRotation = h * pose.toQuery(cross(ray.w, tm));
+  const Vec varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
+  const Real pixelByFocal = pixelVaries ? ray.squaredPixelOfQuery * ray.varianceInMap : Real{};
+  const Real varianceByFocal = h * pose.f * dot(pose.r3, tm) - pixelByFocal;
+  const Real ratio = ray.constraint / variance;
+  derivatives[0] = constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x);
+  derivatives[1] = constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1);
+  derivatives[2] = constraintByRotation.z - ratio * mapByRotation.z;
+  derivatives[3] = ray.s.x - ratio * varianceByPosition.x;
+  derivatives[4] = ray.s.y - ratio * varianceByPosition.y;
+  derivatives[5] = ray.s.z - ratio * varianceByPosition.z;
+  derivatives[6] = pose.f * l3 - ratio * varianceByFocal;
+}
+
+inline bool pixelVaries(const RayArrays& rays, const PlainPose& pose) { return pose.focalLength >= rays.leastFocalLength; }
+
+inline Mask isValid(const Epipolar& ray, Real squaredError, const TypeLoss& loss) {
+  const Mask isFinite = (ray.variance > 0) & (squaredError < kInfinity);
+  return loss.loss == Loss::Quadratic ? isFinite : isFinite & ray.inFront();
+}
+
 void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
   const Pose pose(plainPose);
   const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
-  const bool pixelVaries = plainPose.focalLength >= rays.leastFocalLength;
   NormalEquationsSum sums(loss);
   forRange(0, rays.size, [&](std::size_t i, Mask inRange) {
     const Epipolar ray(rays, i, pose, unknownPixel);
     const Real squaredError = ray.squaredError();
-    Mask valid = (ray.variance > 0) & (squaredError < kInfinity);
-    if (loss.loss != Loss::Quadratic) valid &= ray.inFront();
-    const Real weight = sums.weigh(inRange, valid, squaredError);
-
+    const Mask valid = isValid(ray, squaredError, loss);
+    const Real weight = sums.weigh(inRange, valid, squaredError, rays.narrowing ? rays.narrowing + i : nullptr);
+    if (isNone(weight > 0)) return;
     const Real variance = where(valid, ray.variance, all(1));
-    const Real l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
-    const Vec m = ray.n - ray.alongNormal * ray.imageNormal;
-    const Vec tm = cross(ray.t, m);
-    const Vec constraintByRotation = cross(ray.image, Vec{ray.l1, ray.l2, l3});
-    const Vec mapByRotation = h * pose.toQuery(cross(ray.w, tm));
-    const Vec varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
-    const Real pixelByFocal = pixelVaries ? ray.squaredPixelOfQuery * ray.varianceInMap : Real{};
-    const Real varianceByFocal = h * pose.f * dot(pose.r3, tm) - pixelByFocal;
-    const Real ratio = ray.constraint / variance;
-    const Row derivatives = {constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x),
-                             constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1),
-                             constraintByRotation.z - ratio * mapByRotation.z,
-                             ray.s.x - ratio * varianceByPosition.x,
-                             ray.s.y - ratio * varianceByPosition.y,
-                             ray.s.z - ratio * varianceByPosition.z,
-                             pose.f * l3 - ratio * varianceByFocal};
+    Row derivatives;
+    differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
     sums.add(derivatives, ray.constraint, weight / variance);
   });
   sums.addTo(total);
 }
 
-constexpr Kernels kTable = {squaredPointErrors, squaredRayErrors, scorePoints, scoreRays, addPoints, addRays};
+void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, const double* covariance,
+                  double* leverages) {
+  const Pose pose(plainPose);
+  const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
+  for (std::size_t i = 0; i < rays.size; i += HYBRIDGV_LANES) {
+    const Epipolar ray(rays, i, pose, unknownPixel);
+    const Real squaredError = ray.squaredError();
+    const Mask valid = isValid(ray, squaredError, loss);
+    const Real narrowing = rays.narrowing ? load(rays.narrowing + i) : all(1);
+    const Real weight = loss.precision * slope(loss, relativeSquare(loss, valid, squaredError, narrowing));
+    const Real variance = where(valid, ray.variance, all(1));
+    Row derivatives;
+    differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
+    Real quadraticForm{};
+    for (int row = 0; row < kParameters; ++row)
+      for (int column = 0; column < kParameters; ++column)
+        quadraticForm += covariance[row * kParameters + column] * derivatives[row] * derivatives[column];
+    const Real leverage = where(valid, weight / variance * quadraticForm, Real{});
+    std::memcpy(leverages + i, &leverage, sizeof leverage);
+  }
+}
+
+constexpr Kernels kTable = {squaredPointErrors, squaredRayErrors, scorePoints, scoreRays, addPoints, addRays, rayLeverages};
 
 }  // namespace
 }  // namespace robust

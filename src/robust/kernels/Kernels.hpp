@@ -27,11 +27,13 @@ struct PointArrays {
 
 // 2D-2D correspondences: image point (u, v), centre c of the rig camera, direction d and image normal a (EpipolarRay). The square
 // of the map image's pixel is squaredPixel (1/g^2) where g is known; otherwise that is 0 and isUnknown is 1, not 0: then g is the
-// query's focal length, but at least leastFocalLength.
+// query's focal length, but at least leastFocalLength. The loss of a ray is narrower than TypeLoss says by the square root of its
+// `narrowing`, with the same curvature at 0; null: by 1.
 struct RayArrays {
   std::size_t size = 0;
   double leastFocalLength = 0;
   const double *u, *v, *cx, *cy, *cz, *dx, *dy, *dz, *ax, *ay, *az, *squaredPixel, *isUnknown;
+  const double* narrowing = nullptr;
 };
 
 struct Score {
@@ -74,6 +76,8 @@ struct Kernels {
   // Add to the sums. A point that is not in front of the query costs rho(infinity), as does a ray but for Loss::Quadratic.
   void (*addPoints)(const PointArrays&, const PlainPose&, const TypeLoss&, NormalEquations&);
   void (*addRays)(const RayArrays&, const PlainPose&, const TypeLoss&, NormalEquations&);
+  // W J C J^T of every ray, C a symmetric 7x7 matrix. `leverages` has room for the padding.
+  void (*rayLeverages)(const RayArrays&, const PlainPose&, const TypeLoss&, const double* covariance, double* leverages);
 };
 
 extern const Kernels kKernelsSse2;

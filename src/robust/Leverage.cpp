@@ -1,0 +1,33 @@
+#include "robust/Leverage.hpp"
+
+#include <algorithm>
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+// A ray that alone fixes a direction has leverage 1 and no error; nothing can be said about it.
+constexpr double kMaxLeverage = 0.99;
+
+std::size_t padded(std::size_t size) { return (size + kPadding - 1) / kPadding * kPadding; }
+
+}  // namespace
+
+std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const FocalPose& pose) {
+  std::vector<double> leverages(padded(problem.rays.size), 0);
+  Matrix7 covariance;
+  if (invertInformation(information(problem, pose), covariance))
+    problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, covariance.data(), leverages.data());
+  leverages.resize(problem.rays.size);
+  return leverages;
+}
+
+std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose) {
+  std::vector<double> result = rayLeverages(problem, pose);
+  for (double& value : result) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
+  result.resize(padded(problem.rays.size), 1);
+  return result;
+}
+
+}  // namespace robust
+}  // namespace hybridgv
