@@ -71,15 +71,17 @@ class EquationCheck {
   std::string pointViolation(const FocalPose& pose, std::size_t i) const {
     const solvers::PointMatch& match = points_[i];
     const Eigen::Vector3d x = pose.rotation.transpose() * (match.point - pose.position);
-    const double allowed = kTolerance * imageScale_ + rounding(pose, match.u, match.v, x.norm());
-    if (!(allowed < imageScale_) || isGrazing(pose, match.u, match.v)) return "";
+    const double projectedU = pose.focalLength * x[0] / x[2], projectedV = pose.focalLength * x[1] / x[2];
+    const bool isExactU = 2 * i < exactCoordinates_, isExactV = 2 * i + 1 < exactCoordinates_;
+    // A coordinate that the solver need not meet can be anywhere.
+    const double u = isExactU ? match.u : projectedU, v = isExactV ? match.v : projectedV;
+    const double allowed = kTolerance * imageScale_ + rounding(pose, u, v, x.norm());
+    if (!(allowed < imageScale_) || isGrazing(pose, u, v)) return "";
     if (x[2] <= 0) return describe("points are in front of the query", pose, -x[2], 0);
-    const double errorU = std::abs(pose.focalLength * x[0] / x[2] - match.u);
-    const double errorV = std::abs(pose.focalLength * x[1] / x[2] - match.v);
-    if (2 * i < exactCoordinates_ && errorU > allowed)
-      return describe("the u coordinates of points are met", pose, errorU, allowed);
-    if (2 * i + 1 < exactCoordinates_ && errorV > allowed)
-      return describe("the v coordinates of points are met", pose, errorV, allowed);
+    if (isExactU && std::abs(projectedU - u) > allowed)
+      return describe("the u coordinates of points are met", pose, std::abs(projectedU - u), allowed);
+    if (isExactV && std::abs(projectedV - v) > allowed)
+      return describe("the v coordinates of points are met", pose, std::abs(projectedV - v), allowed);
     return "";
   }
 
@@ -100,14 +102,15 @@ class EquationCheck {
 
   // The two rays b + beta a and lambda (u, v, f) meet where beta and lambda are positive. Where they are nearly parallel,
   // rounding decides on the signs.
-  static std::string depthViolation(const FocalPose& pose, const solvers::RayMatch& ray, const Eigen::Vector3d& a,
-                                    const Eigen::Vector3d& b) {
-    constexpr double kSmallAngle = 1e-3, kRounding = 1e-6;
+  std::string depthViolation(const FocalPose& pose, const solvers::RayMatch& ray, const Eigen::Vector3d& a,
+                             const Eigen::Vector3d& b) const {
+    constexpr double kSmallAngle = 1e-3, kRounding = 1e-6, kOperations = 100;
     const Eigen::Vector3d p = Eigen::Vector3d(ray.u, ray.v, pose.focalLength).normalized(), n = p.cross(a);
     const double sine = n.norm();
     if (!(sine > kSmallAngle)) return "";
     const double beta = -p.cross(b).dot(n) / (sine * sine), lambda = -a.cross(b).dot(n) / (sine * sine);
-    const double allowed = -kRounding * b.norm() / sine;
+    const double roundingOfCentres = kOperations * std::numeric_limits<double>::epsilon() * (extent_ + pose.position.norm());
+    const double allowed = -(kRounding * b.norm() + roundingOfCentres) / sine;
     if (beta < allowed) return describe("rays are met on their forward side", pose, beta, allowed);
     if (lambda < allowed) return describe("rays are met in front of the query", pose, lambda, allowed);
     return "";
