@@ -63,15 +63,26 @@ struct Pose {
   Real f;
 };
 
-// Calls body(i, mask) for i = begin, begin + HYBRIDGV_LANES, .. below end; the mask tells which lanes are below it.
+inline Mask allLanes() { return Mask{} == Mask{}; }
+inline Mask lanesBelow(std::size_t count) {
+  Mask mask{};
+  for (int lane = 0; lane < HYBRIDGV_LANES; ++lane) mask[lane] = static_cast<std::size_t>(lane) < count ? -1 : 0;
+  return mask;
+}
+
+// Calls body(i, mask) for i = begin, begin + HYBRIDGV_LANES, .. below end; the mask tells which lanes are below it. The compiler
+// makes two copies of the body, the first of which needs no mask.
 template <class Body>
 inline void forRange(std::size_t begin, std::size_t end, Body body) {
-  for (std::size_t i = begin; i < end; i += HYBRIDGV_LANES) {
-    Mask inRange = Mask{} == Mask{};
-    if (i + HYBRIDGV_LANES > end)
-      for (int lane = 0; lane < HYBRIDGV_LANES; ++lane) inRange[lane] = i + static_cast<std::size_t>(lane) < end ? -1 : 0;
-    body(i, inRange);
-  }
+  std::size_t i = begin;
+  for (; i + HYBRIDGV_LANES <= end; i += HYBRIDGV_LANES) body(i, allLanes());
+  if (i < end) body(i, lanesBelow(end - i));
+}
+
+// The same for a body so long that it is not made part of the loop if there are two copies.
+template <class Body>
+inline void forRangeOfLongBody(std::size_t begin, std::size_t end, Body body) {
+  for (std::size_t i = begin; i < end; i += HYBRIDGV_LANES) body(i, i + HYBRIDGV_LANES <= end ? allLanes() : lanesBelow(end - i));
 }
 
 // ---- 2D-3D: e = f (x/z, y/z) - (u, v), (x, y, z) = R^T X - R^T p ----
@@ -303,7 +314,7 @@ class NormalEquationsSum {
 void addPoints(const PointArrays& points, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
   const Pose pose(plainPose);
   NormalEquationsSum sums(loss);
-  forRange(0, points.size, [&](std::size_t i, Mask inRange) {
+  forRangeOfLongBody(0, points.size, [&](std::size_t i, Mask inRange) {
     Reprojection point(points, i, pose);
     const Mask valid = point.inFront & (point.squaredError < kInfinity);
     const Real weight = sums.weigh(inRange, valid, point.squaredError);
@@ -372,7 +383,7 @@ void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& 
   const Pose pose(plainPose);
   const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
   NormalEquationsSum sums(loss);
-  forRange(0, rays.size, [&](std::size_t i, Mask inRange) {
+  forRangeOfLongBody(0, rays.size, [&](std::size_t i, Mask inRange) {
     const Epipolar ray(rays, i, pose, unknownPixel);
     const Real squaredError = ray.squaredError();
     const Mask valid = isValid(ray, squaredError, loss);
