@@ -44,7 +44,7 @@ class SolverChoice {
 
  private:
   // A strategy is not drawn if another finds an all-inlier sample this many times faster.
-  static constexpr double kHopeless = 2;
+  static constexpr double kHopeless = 1.5;
 
   void setWeights();
 

@@ -127,9 +127,9 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 ///     prior x P_s / cost_s,
 ///
 /// P_s the (hypergeometric) probability that a sample of solver s has inliers only, by the best model so far, cost_s its time; a
-/// solver that finds such samples much more slowly than another is not drawn. Promising models are optimized over both types, and
-/// compared by their likelihoods for the noise of their inliers, so that the thresholds need not be near to it. With k_s samples
-/// of solver s so far, the search ends when
+/// solver that takes more than 1.5 times as long as another to find such a sample is not drawn. Promising models are optimized
+/// over both types, and compared by their likelihoods for the noise of their inliers, so that the thresholds need not be near to
+/// it. With k_s samples of solver s so far, the search ends when
 ///
 ///     prod_s (1 - P_s)^k_s < 1 - successProbability.
 ///
