@@ -22,11 +22,12 @@ struct Row {
   int outliersPercent;
   double pointNoisePercent;  // standard deviation over depth
   double outlierShareRays;   // negative: as of the points
+  int rays = 200;
 };
 
 void query(benchmark::State& state, const Row& row) {
   test::SceneOptions sceneOptions;
-  sceneOptions.rays = sceneOptions.points = 200, sceneOptions.imageNoise = 2;
+  sceneOptions.rays = row.rays, sceneOptions.points = 200, sceneOptions.imageNoise = 2;
   sceneOptions.outlierSharePoints = row.outliersPercent / 100.;
   sceneOptions.outlierShareRays = row.outlierShareRays < 0 ? sceneOptions.outlierSharePoints : row.outlierShareRays;
   sceneOptions.pointNoise = row.pointNoisePercent / 100 * kPointDepth;
@@ -67,7 +68,11 @@ int main(int argc, char** argv) {
     for (const int outliers : {0, 30, 50, 70})
       add("outliers_" + std::to_string(outliers) + "%/point_noise_" + std::to_string(static_cast<int>(noise)) + "%",
           {outliers, noise, -1});
-  add("outliers_30%/rays_all_outliers", {30, 0, 1});
+  for (const int outliers : {0, 30, 50, 70}) {
+    const std::string share = "outliers_" + std::to_string(outliers) + "%";
+    add(share + "/rays_all_outliers", {outliers, 0, 1});
+    add(share + "/no_rays", {outliers, 0, 0, 0});
+  }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
