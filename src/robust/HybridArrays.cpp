@@ -52,9 +52,11 @@ HybridArrays::HybridArrays(const hybrid_pose::HybridAdapterBase& adapter, const 
 }
 
 void HybridArrays::normalize() {
+  // Some tell as much as all.
+  constexpr std::size_t kEnough = 100;
   std::vector<Eigen::Vector3d> positions;
-  for (const solvers::PointMatch& match : points_) positions.push_back(match.point);
-  for (const solvers::RayMatch& match : rays_) positions.push_back(match.centre);
+  for (std::size_t i = 0; i < std::min(points_.size(), kEnough); ++i) positions.push_back(points_[i].point);
+  for (std::size_t i = 0; i < std::min(rays_.size(), kEnough); ++i) positions.push_back(rays_[i].centre);
   normalization_ = normalizationOf(positions);
   for (solvers::PointMatch& match : points_) match.point = normalization_.apply(match.point);
   for (solvers::RayMatch& match : rays_) match.centre = normalization_.apply(match.centre);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "robust/Leverage.hpp"
@@ -21,10 +22,12 @@ constexpr double kExpectedPerThreshold = 1 / 2.5;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
 constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
-std::vector<double> below(std::vector<double> squared, double threshold) {
-  const auto isOutlier = [&](double e) { return !(e < threshold * threshold); };
-  squared.erase(std::remove_if(squared.begin(), squared.end(), isOutlier), squared.end());
-  return squared;
+std::vector<double> below(const std::vector<double>& squared, double threshold) {
+  std::vector<double> result;
+  result.reserve(squared.size());
+  const auto isInlier = [&](double e) { return e < threshold * threshold; };
+  std::copy_if(squared.begin(), squared.end(), std::back_inserter(result), isInlier);
+  return result;
 }
 
 // Reorders the values.
@@ -93,7 +96,7 @@ FocalPose LocalOptimizer::settle(const FocalPose& start, const Types& types) con
 FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Types& types, int rounds, const Steps& steps) const {
   FocalPose pose = start;
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(pose, types);
+    const Noise at = noise(squaredErrors(pose, types), pose.focalLength);
     pose = minimized(at.rays.loss(), at.points.loss(), pose, types, steps);
   }
   return pose;
@@ -104,7 +107,7 @@ FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Types& typ
   FocalPose pose = start;
   narrowing.clear();
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(pose, types);
+    const Noise at = noise(squaredErrors(pose, types), pose.focalLength);
     LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), types);
     if (round > 0) robust.rays.narrowing = narrowing.data();
     narrowing = narrowingByLeverage(robust, pose);
@@ -157,23 +160,29 @@ Types LocalOptimizer::moreThanChance(const FocalPose& pose) const {
   return types.rays || types.points ? types : Types{};
 }
 
-Noise LocalOptimizer::noise(const FocalPose& pose, const Types& types) const {
+SquaredErrors LocalOptimizer::squaredErrors(const FocalPose& pose, const Types& types) const {
+  SquaredErrors result;
+  if (types.rays) result.rays = scorer_.squaredRayErrors(pose);
+  if (types.points) result.points = scorer_.squaredPointErrors(pose);
+  return result;
+}
+
+Noise LocalOptimizer::noise(const SquaredErrors& errors, double focalLength) const {
   const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
-  std::vector<double> rays, points;
-  if (types.rays) rays = below(scorer_.squaredRayErrors(pose), maxRay);
-  if (types.points) points = below(scorer_.squaredPointErrors(pose), maxPoint);
+  std::vector<double> rays = below(errors.rays, maxRay), points = below(errors.points, maxPoint);
   const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
   const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
   double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
   if (!rays.empty() && !points.empty()) allowForHiddenErrors(ray, point);
   const HybridArrays& arrays = scorer_.arrays();
-  return {rayMixture(ray, {rays.size(), arrays.rays().size(), maxRay, chance_.rayShare(pose.focalLength)}),
+  return {rayMixture(ray, {rays.size(), arrays.rays().size(), maxRay, chance_.rayShare(focalLength)}),
           pointMixture(point, {points.size(), arrays.points().size(), maxPoint, chance_.pointShare()})};
 }
 
 double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
-  const Noise at = noise(pose);
-  return at.rays.logLikelihood(scorer_.squaredRayErrors(pose)) + at.points.logLikelihood(scorer_.squaredPointErrors(pose));
+  const SquaredErrors errors = squaredErrors(pose, Types{});
+  const Noise at = noise(errors, pose.focalLength);
+  return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points);
 }
 
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
@@ -183,10 +192,11 @@ FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   constexpr Steps kFine{20, 1e-8};
   result.pose = optimize ? withoutLevers(likeliest(start, types, 1, kFine), types, 3, kFine, narrowing) : start;
   // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.
-  result.noise = noise(result.pose);
+  const SquaredErrors errors = squaredErrors(result.pose, Types{});
+  result.noise = noise(errors, result.pose.focalLength);
   ErrorMixture &ray = result.noise.rays, &point = result.noise.points;
-  const std::vector<double> rays = below(scorer_.squaredRayErrors(result.pose), ray.boundary);
-  const std::vector<double> points = below(scorer_.squaredPointErrors(result.pose), point.boundary);
+  const std::vector<double> rays = below(errors.rays, ray.boundary);
+  const std::vector<double> points = below(errors.points, point.boundary);
   const Measured measuredRays{mean(rays), scorer_.maxEpipolarError(), rays.size()};
   const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
   ray.deviation = deviation(measuredRays, measuredPoints);

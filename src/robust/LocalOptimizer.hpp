@@ -14,6 +14,10 @@ struct Types {
   bool rays = true, points = true;
 };
 
+struct SquaredErrors {
+  std::vector<double> rays, points;
+};
+
 struct Noise {
   ErrorMixture rays, points;
 };
@@ -40,14 +44,16 @@ class LocalOptimizer {
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
   // focal length. Without points the origin stands for them.
   FocalPose atDistance(const FocalPose& pose, double factor) const;
-  // A type that is not used counts as absent.
-  Noise noise(const FocalPose& pose, const Types& types = {}) const;
   // Log of the likelihood of all errors, for this noise, over that of outliers only.
   double logLikelihood(const FocalPose& pose) const;
   // The types with more inliers than a wrong pose has; both if none has.
   Types moreThanChance(const FocalPose& pose) const;
 
  private:
+  // A type that is not used counts as absent.
+  SquaredErrors squaredErrors(const FocalPose& pose, const Types& types) const;
+  Noise noise(const SquaredErrors& errors, double focalLength) const;
+
   struct Steps {
     int iterations;
     double minDecrease;

@@ -312,6 +312,7 @@ class NormalEquationsSum {
 };
 
 void addPoints(const PointArrays& points, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
+  if (points.size == 0) return;
   const Pose pose(plainPose);
   NormalEquationsSum sums(loss);
   forRangeOfLongBody(0, points.size, [&](std::size_t i, Mask inRange) {
@@ -380,6 +381,7 @@ inline Mask isValid(const Epipolar& ray, Real squaredError, const TypeLoss& loss
 }
 
 void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
+  if (rays.size == 0) return;
   const Pose pose(plainPose);
   const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
   NormalEquationsSum sums(loss);
