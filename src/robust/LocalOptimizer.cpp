@@ -61,6 +61,12 @@ double deviation(const Measured& type, const Measured& other) {
 TypeLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
 TypeLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
 
+// The narrowing must outlive the problem; empty means none.
+LeastSquaresProblem narrowed(LeastSquaresProblem problem, const std::vector<double>& narrowing) {
+  problem.rays.narrowing = narrowing.empty() ? nullptr : narrowing.data();
+  return problem;
+}
+
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
 // least in those of rays, which give way across one line. So neither type counts as better than the other, and rays as somewhat
 // worse, unless one is clearly the noisier.
@@ -108,11 +114,9 @@ FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Types& typ
   narrowing.clear();
   for (int round = 0; round < rounds; ++round) {
     const Noise at = noise(squaredErrors(pose, types), pose.focalLength);
-    LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), types);
-    if (round > 0) robust.rays.narrowing = narrowing.data();
-    narrowing = narrowingByLeverage(robust, pose);
-    robust.rays.narrowing = narrowing.data();
-    pose = minimize(robust, pose, limits(steps)).pose;
+    const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), types);
+    narrowing = narrowingByLeverage(narrowed(robust, narrowing), pose);
+    pose = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   }
   return pose;
 }
@@ -201,10 +205,9 @@ FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
   ray.deviation = deviation(measuredRays, measuredPoints);
   point.deviation = deviation(measuredPoints, measuredRays);
-  LeastSquaresProblem inliers =
+  const LeastSquaresProblem inliers =
       problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), types);
-  if (!narrowing.empty()) inliers.rays.narrowing = narrowing.data();
-  result.information = information(inliers, result.pose);
+  result.information = information(narrowed(inliers, narrowing), result.pose);
   return result;
 }
 
