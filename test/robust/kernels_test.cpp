@@ -259,6 +259,33 @@ TEST(Kernels, one_rays_information_is_the_square_of_the_central_difference_of_it
   }
 }
 
+// The same for one point, which has two errors.
+TEST(Kernels, a_points_information_is_the_square_of_the_central_differences_of_its_projection) {
+  test::Random random(test::testSeed(), 19);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    const Data data(random, 1, 1);
+    const FocalPose pose = test::perturbed(random, data.scene.truth, 0.02, 0.2, 0.05);
+    const FocalPose normalized = data.arrays.normalization().apply(pose);
+    const Eigen::Vector3d point = data.arrays.points()[0].point;
+    const auto projection = [&](const FocalPose& at) {
+      const Eigen::Vector3d y = at.rotation.transpose() * (point - at.position);
+      return Eigen::Vector2d(at.focalLength * y[0] / y[2], at.focalLength * y[1] / y[2]);
+    };
+    Eigen::Matrix<double, 2, kParameters> derivative;
+    const double h = 1e-6;
+    for (int i = 0; i < kParameters; ++i)
+      derivative.col(i) = (projection(moved(normalized, i, h)) - projection(moved(normalized, i, -h))) / (2 * h);
+    const Eigen::Matrix<double, kParameters, kParameters> expected = derivative.transpose() * derivative;
+    for (const SimdLevel level : levels()) {
+      const NormalEquations at = sums(level, data, normalized, {}, true, false);
+      for (int row = 0, k = 0; row < kParameters; ++row)
+        for (int column = row; column < kParameters; ++column, ++k)
+          EXPECT_NEAR(at.hessian[k], expected(row, column),
+                      1e-6 * std::sqrt(expected(row, row) * expected(column, column)) + 1e-3);
+    }
+  }
+}
+
 TEST(Kernels, normal_equations_are_equal_at_all_levels) {
   test::Random random(test::testSeed(), 16);
   const Data data(random, 61, 63);

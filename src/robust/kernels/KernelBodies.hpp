@@ -239,7 +239,7 @@ class LogSum {
 
 // x = narrowing (error / scale)^2; that of no valid correspondence is infinite.
 inline Real relativeSquare(const TypeLoss& loss, Mask valid, Real squaredError, Real narrowing) {
-  return where(valid, narrowing * squaredError / (loss.scale * loss.scale), all(kInfinity));
+  return where(valid, narrowing * squaredError * (1 / (loss.scale * loss.scale)), all(kInfinity));
 }
 
 // The derivative of rho(x) for one kind of loss; rho(infinity) has none.
@@ -255,9 +255,10 @@ inline Real slope(const TypeLoss& loss, Real x) {
   return all(1);
 }
 
-class NormalEquationsSum {
+// The cost of one type's correspondences, and their weights.
+class CostSum {
  public:
-  explicit NormalEquationsSum(const TypeLoss& loss) : loss_(loss) {}
+  explicit CostSum(const TypeLoss& loss) : loss_(loss) {}
 
   // Adds what the correspondences cost, and returns the weights of their squared errors. Those that are not valid have weight 0.
   // `narrowing` may be null.
@@ -267,30 +268,10 @@ class NormalEquationsSum {
     if (loss_.loss == Loss::Mixture && !narrowing)
       logs_.add(where(inRange, mixtureFactor(x), all(1)));
     else
-      rho_ += where(inRange, rho(x) / factor, Real{});
+      rho_ += where(inRange, narrowing ? rho(x) / factor : rho(x), Real{});
     return where(inRange & valid, loss_.precision * slope(loss_, x), Real{});
   }
-  void add(const Row& derivatives, Real error, Real weight) {
-    for (int row = 0, k = 0; row < kParameters; ++row) {
-      const Real weighted = weight * derivatives[row];
-      gradient_[row] += weighted * error;
-      for (int column = row; column < kParameters; ++column, ++k) hessian_[k] += weighted * derivatives[column];
-    }
-  }
-  // Two errors with the same weight.
-  void add(const Row& derivatives, Real error, const Row& derivatives2, Real error2, Real weight) {
-    for (int row = 0, k = 0; row < kParameters; ++row) {
-      const Real weighted = weight * derivatives[row], weighted2 = weight * derivatives2[row];
-      gradient_[row] += weighted * error + weighted2 * error2;
-      for (int column = row; column < kParameters; ++column, ++k)
-        hessian_[k] += weighted * derivatives[column] + weighted2 * derivatives2[column];
-    }
-  }
-  void addTo(NormalEquations& total) {
-    total.cost += loss_.precision * loss_.scale * loss_.scale * sum(rho_ + logs_.value());
-    for (int i = 0; i < kParameters; ++i) total.gradient[i] += sum(gradient_[i]);
-    for (int i = 0; i < kTriangle; ++i) total.hessian[i] += sum(hessian_[i]);
-  }
+  double total() { return loss_.precision * loss_.scale * loss_.scale * sum(rho_ + logs_.value()); }
 
  private:
   Real rho(Real x) const {
@@ -308,43 +289,123 @@ class NormalEquationsSum {
 
   TypeLoss loss_;
   LogSum logs_;
-  Real rho_{}, gradient_[kParameters] = {}, hessian_[kTriangle] = {};
+  Real rho_{};
+};
+
+// With y = R^T (X - p), m = (y_x, y_y) / y_z, s = f / y_z, and the position's derivatives in the query's frame at first, the
+// derivatives of u and v by rotation, position and log f are
+//
+//     ( u m_v       -f - u m_u   v  |  -s   0   s m_u  |  u )
+//     ( f + v m_v   -u m_v      -u  |   0  -s   s m_v  |  v ) ,
+//
+// because v m_u = u m_v. Many entries of J^T W J are 0, equal or opposite, which leaves 20 sums instead of 28.
+class PointSums {
+ public:
+  void add(const Reprojection& point, Real inverseFocal, const Pose& pose, Real w) {
+    const Real u = point.projectedU, v = point.projectedV, s = point.scale, errorU = point.errorU, errorV = point.errorV;
+    const Real mu = u * inverseFocal, mv = v * inverseFocal, uv = u * mv, uu = -pose.f - u * mu, vv = pose.f + v * mv;
+    const Real wu = w * u, wv = w * v, wuv = w * uv, wuu = w * uu, wvv = w * vv, ws = w * s;
+    const Real radius = wu * u + wv * v, z = s * inverseFocal;  // 1 / y_z
+    const Real turn0 = wuv * u + wvv * v, turn1 = wuu * u - wuv * v;
+    turns_[0] += wuv * uv + wvv * vv, turns_[1] += wuv * (uu - vv), turns_[2] += wuu * uu + wuv * uv;
+    roll_[0] += wuv * v - wvv * u, roll_[1] += wuu * v + wuv * u;
+    shifts_[0] += ws * uv, shifts_[1] += ws * vv, shifts_[2] += ws * uu;
+    depths_[0] += turn0 * z, depths_[1] += turn1 * z;
+    zooms_[0] += turn0, zooms_[1] += turn1;
+    positions_[0] += ws * s, positions_[1] += ws * s * mu, positions_[2] += ws * s * mv;
+    images_[0] += ws * u, images_[1] += ws * v;
+    radii_[0] += radius, radii_[1] += radius * z, radii_[2] += radius * z * z;
+    gradient_[0] += wuv * errorU + wvv * errorV, gradient_[1] += wuu * errorU - wuv * errorV;
+    gradient_[2] += wv * errorU - wu * errorV;
+    gradient_[3] -= ws * errorU, gradient_[4] -= ws * errorV;
+    const Real zoom = wu * errorU + wv * errorV;
+    gradient_[5] += zoom * z, gradient_[6] += zoom;
+  }
+
+  void addTo(const PlainPose& pose, NormalEquations& total) const {
+    double hessian[kParameters][kParameters] = {}, gradient[kParameters];
+    for (int i = 0; i < kParameters; ++i) gradient[i] = sum(gradient_[i]);
+    const double uv = sum(shifts_[0]), u = sum(images_[0]), v = sum(images_[1]);
+    hessian[0][0] = sum(turns_[0]), hessian[0][1] = sum(turns_[1]), hessian[1][1] = sum(turns_[2]);
+    hessian[0][2] = sum(roll_[0]), hessian[1][2] = sum(roll_[1]);
+    hessian[0][3] = -uv, hessian[0][4] = -sum(shifts_[1]), hessian[1][3] = -sum(shifts_[2]), hessian[1][4] = uv;
+    hessian[2][3] = -v, hessian[2][4] = u, hessian[3][6] = -u, hessian[4][6] = -v;
+    hessian[0][5] = sum(depths_[0]), hessian[1][5] = sum(depths_[1]);
+    hessian[0][6] = sum(zooms_[0]), hessian[1][6] = sum(zooms_[1]);
+    hessian[3][3] = hessian[4][4] = sum(positions_[0]);
+    hessian[3][5] = -sum(positions_[1]), hessian[4][5] = -sum(positions_[2]);
+    hessian[2][2] = hessian[6][6] = sum(radii_[0]), hessian[5][6] = sum(radii_[1]), hessian[5][5] = sum(radii_[2]);
+    for (int row = 0; row < kParameters; ++row)
+      for (int column = 0; column < row; ++column) hessian[row][column] = hessian[column][row];
+
+    // The position in the rig's frame: its derivatives are R times those in the query's.
+    turnPosition(pose, gradient);
+    for (auto& row : hessian) turnPosition(pose, row);
+    for (int column = 0; column < kParameters; ++column) {
+      double entries[kParameters];
+      for (int row = 0; row < kParameters; ++row) entries[row] = hessian[row][column];
+      turnPosition(pose, entries);
+      for (int row = 0; row < kParameters; ++row) hessian[row][column] = entries[row];
+    }
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      total.gradient[row] += gradient[row];
+      for (int column = row; column < kParameters; ++column, ++k) total.hessian[k] += hessian[row][column];
+    }
+  }
+
+ private:
+  static void turnPosition(const PlainPose& pose, double* entries) {
+    const double x = entries[3], y = entries[4], z = entries[5];
+    for (int k = 0; k < 3; ++k) entries[3 + k] = pose.r1[k] * x + pose.r2[k] * y + pose.r3[k] * z;
+  }
+
+  // Rotation by rotation about the image's axes and about the optical axis, by shifts in the image plane and in depth, by log f;
+  // position by position in the image plane and by the rest; and what is a sum over u^2 + v^2.
+  Real turns_[3] = {}, roll_[2] = {}, shifts_[3] = {}, depths_[2] = {}, zooms_[2] = {}, positions_[3] = {}, images_[2] = {},
+       radii_[3] = {};
+  Real gradient_[kParameters] = {};
 };
 
 void addPoints(const PointArrays& points, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
   if (points.size == 0) return;
   const Pose pose(plainPose);
-  NormalEquationsSum sums(loss);
+  const Real inverseFocal = all(1 / plainPose.focalLength);
+  CostSum cost(loss);
+  PointSums sums;
   forRangeOfLongBody(0, points.size, [&](std::size_t i, Mask inRange) {
     Reprojection point(points, i, pose);
     const Mask valid = point.inFront & (point.squaredError < kInfinity);
-    const Real weight = sums.weigh(inRange, valid, point.squaredError);
+    const Real weight = cost.weigh(inRange, valid, point.squaredError);
     if (isNone(weight > 0)) return;
-    // Where there is no projection, any finite derivative will do.
-    Vec& y = point.inQuery;
-    y = {where(valid, y.x, Real{}), where(valid, y.y, Real{}), where(valid, y.z, all(1))};
-    point.project(points, i, pose);
-    // dy = y x rotation - R^T dposition, du = scale (dy_x - (y_x / y_z) dy_z), likewise v.
-    const Real slopeU = y.x / y.z, slopeV = y.y / y.z;
-    const Vec uByPosition = point.scale * (slopeU * pose.r3 - pose.r1), vByPosition = point.scale * (slopeV * pose.r3 - pose.r2);
-    const Row du = {point.projectedU * slopeV,
-                    -pose.f - point.projectedU * slopeU,
-                    pose.f * slopeV,
-                    uByPosition.x,
-                    uByPosition.y,
-                    uByPosition.z,
-                    point.projectedU};
-    const Row dv = {pose.f + point.projectedV * slopeV,
-                    -point.projectedV * slopeU,
-                    -pose.f * slopeU,
-                    vByPosition.x,
-                    vByPosition.y,
-                    vByPosition.z,
-                    point.projectedV};
-    sums.add(du, point.errorU, dv, point.errorV, weight);
+    if (!isNone(~valid)) {  // where there is no projection, any finite one will do
+      Vec& y = point.inQuery;
+      y = {where(valid, y.x, Real{}), where(valid, y.y, Real{}), where(valid, y.z, all(1))};
+      point.project(points, i, pose);
+    }
+    sums.add(point, inverseFocal, pose, weight);
   });
-  sums.addTo(total);
+  total.cost += cost.total();
+  sums.addTo(plainPose, total);
 }
+
+// J^T W J and J^T W e of errors with any derivatives.
+class NormalEquationsSum {
+ public:
+  void add(const Row& derivatives, Real error, Real weight) {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      const Real weighted = weight * derivatives[row];
+      gradient_[row] += weighted * error;
+      for (int column = row; column < kParameters; ++column, ++k) hessian_[k] += weighted * derivatives[column];
+    }
+  }
+  void addTo(NormalEquations& total) const {
+    for (int i = 0; i < kParameters; ++i) total.gradient[i] += sum(gradient_[i]);
+    for (int i = 0; i < kTriangle; ++i) total.hessian[i] += sum(hessian_[i]);
+  }
+
+ private:
+  Real gradient_[kParameters] = {}, hessian_[kTriangle] = {};
+};
 
 // The error e = C G^(-1/2) has the derivative G^(-1/2) (dC - C/G dG/2). Summed is G (de)^2 with the weight divided by G, which
 // needs no square root. With q = (u, v, f), m the part of n in the map's image plane, all vectors in the rig's frame but for the
@@ -384,18 +445,20 @@ void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& 
   if (rays.size == 0) return;
   const Pose pose(plainPose);
   const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
-  NormalEquationsSum sums(loss);
+  CostSum cost(loss);
+  NormalEquationsSum sums;
   forRangeOfLongBody(0, rays.size, [&](std::size_t i, Mask inRange) {
     const Epipolar ray(rays, i, pose, unknownPixel);
     const Real squaredError = ray.squaredError();
     const Mask valid = isValid(ray, squaredError, loss);
-    const Real weight = sums.weigh(inRange, valid, squaredError, rays.narrowing ? rays.narrowing + i : nullptr);
+    const Real weight = cost.weigh(inRange, valid, squaredError, rays.narrowing ? rays.narrowing + i : nullptr);
     if (isNone(weight > 0)) return;
     const Real variance = where(valid, ray.variance, all(1));
     Row derivatives;
     differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
     sums.add(derivatives, ray.constraint, weight / variance);
   });
+  total.cost += cost.total();
   sums.addTo(total);
 }
 
