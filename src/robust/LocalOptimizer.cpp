@@ -87,11 +87,12 @@ FocalPose LocalOptimizer::refine(const FocalPose& start) const {
     double rays, points;  // in thresholds
     Steps steps;
   };
-  constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}, {1, 1, {10, 1e-4}}};
+  constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}};
+  const double ray = scorer_.maxEpipolarError(), point = scorer_.maxReprojectionError();
   FocalPose pose = start;
   for (const Stage& stage : stages)
-    pose = minimized(truncatedLoss(stage.rays * scorer_.maxEpipolarError()),
-                     truncatedLoss(stage.points * scorer_.maxReprojectionError()), pose, Types{}, stage.steps);
+    pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, Types{}, stage.steps);
+  pose = minimized(truncatedLoss(ray), truncatedLoss(point), pose, moreThanChance(pose), {10, 1e-4});
   return settle(pose, moreThanChance(pose));
 }
 
