@@ -44,7 +44,7 @@ class LocalOptimizer {
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
   // focal length. Without points the origin stands for them.
   FocalPose atDistance(const FocalPose& pose, double factor) const;
-  // Log of the likelihood of all errors, for this noise, over that of outliers only.
+  // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const FocalPose& pose) const;
   // The types with more inliers than a wrong pose has; both if none has.
   Types moreThanChance(const FocalPose& pose) const;
