@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::size_t kRayColumns = 13, kPointColumns = 5;
 
-std::size_t padded(std::size_t size) { return (size + kPadding - 1) / kPadding * kPadding; }
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -119,6 +117,8 @@ PointArrays HybridArrays::pointArrays() const {
   const auto column = [&](std::size_t k) { return pointColumns_.data() + k * rows; };
   return {points_.size(), column(0), column(1), column(2), column(3), column(4)};
 }
+
+std::size_t padded(std::size_t size) { return (size + kPadding - 1) / kPadding * kPadding; }
 
 std::vector<int> allIndices(std::size_t count) {
   std::vector<int> indices(count);

@@ -60,6 +60,9 @@ class HybridArrays {
   std::vector<double> rayColumns_, pointColumns_;
 };
 
+// The next multiple of kPadding.
+std::size_t padded(std::size_t size);
+
 // 0, 1, .., count-1
 std::vector<int> allIndices(std::size_t count);
 

@@ -9,8 +9,6 @@ namespace {
 // A ray that alone fixes a direction has leverage 1 and no error; nothing can be said about it.
 constexpr double kMaxLeverage = 0.99;
 
-std::size_t padded(std::size_t size) { return (size + kPadding - 1) / kPadding * kPadding; }
-
 }  // namespace
 
 std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const FocalPose& pose) {

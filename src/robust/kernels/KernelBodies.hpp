@@ -323,7 +323,7 @@ class PointSums {
   }
 
   void addTo(const PlainPose& pose, NormalEquations& total) const {
-    double hessian[kParameters][kParameters] = {}, gradient[kParameters];
+    double hessian[kParameters][kParameters] = {}, gradient[kParameters] = {};
     for (int i = 0; i < kParameters; ++i) gradient[i] = sum(gradient_[i]);
     const double uv = sum(shifts_[0]), u = sum(images_[0]), v = sum(images_[1]);
     hessian[0][0] = sum(turns_[0]), hessian[0][1] = sum(turns_[1]), hessian[1][1] = sum(turns_[2]);
@@ -342,7 +342,7 @@ class PointSums {
     turnPosition(pose, gradient);
     for (auto& row : hessian) turnPosition(pose, row);
     for (int column = 0; column < kParameters; ++column) {
-      double entries[kParameters];
+      double entries[kParameters] = {};
       for (int row = 0; row < kParameters; ++row) entries[row] = hessian[row][column];
       turnPosition(pose, entries);
       for (int row = 0; row < kParameters; ++row) hessian[row][column] = entries[row];
