@@ -1,4 +1,4 @@
-// 3. A hybrid solver inside OpenGV's own loop: opengv::sac::Ransac with H13f, matches of both types, a fifth of them wrong.
+// 3. A hybrid solver inside OpenGV's own loop: opengv::sac::Ransac with H13f, matches of both kinds, a fifth of them wrong.
 #include <hybridgv/adapters/NoncentralHybridAdapter.hpp>
 #include <hybridgv/sac_problems/hybrid_pose/HybridPoseSacProblem.hpp>
 

@@ -1,4 +1,4 @@
-// 4. Robust estimation: hybridRansac on matches of both types, a third of them wrong.
+// 4. Robust estimation: hybridRansac on matches of both kinds, a third of them wrong.
 #include <hybridgv/adapters/NoncentralHybridAdapter.hpp>
 #include <hybridgv/sac/HybridRansac.hpp>
 

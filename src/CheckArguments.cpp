@@ -40,11 +40,11 @@ void checkIndices(const char* name, const char* part, const std::vector<int>& in
   checkAllDifferent(name, part, indices, needed);
 }
 
-void checkMultiIndices(const char* name, const std::vector<std::vector<int>>& indices, int rays, int points,
-                       const hybrid_pose::HybridAdapterBase& adapter) {
+void checkMultiIndices(const char* name, const std::vector<std::vector<int>>& indices, const std::array<int, 2>& needed,
+                       const std::array<std::size_t, 2>& available) {
   if (indices.size() != 2) throwInvalid(name, "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
-  checkIndices(name, "[0] (2D-2D)", indices[0], rays, adapter.getNumberCorrespondences2d2d());
-  checkIndices(name, "[1] (2D-3D)", indices[1], points, adapter.getNumberCorrespondences2d3d());
+  checkIndices(name, "[0] (2D-2D)", indices[0], needed[0], available[0]);
+  checkIndices(name, "[1] (2D-3D)", indices[1], needed[1], available[1]);
 }
 
 void checkPose(const std::string& name, const FocalPose& pose) {
@@ -54,41 +54,6 @@ void checkPose(const std::string& name, const FocalPose& pose) {
   if (!(error < kTolerance) || pose.rotation.determinant() < 0) throwInvalid(name, "its rotation is not a rotation matrix");
   if (!(pose.focalLength > 0) || !std::isfinite(pose.focalLength))
     throwInvalid(name, "its focal length must be positive and finite, is " + std::to_string(pose.focalLength));
-}
-
-static void checkFinite(const char* what, int index, const Eigen::Vector3d& value) {
-  if (!value.allFinite())
-    throwInvalid(
-        std::string("adapter.") + what + "(" + std::to_string(index) + ")",
-        "not finite: (" + std::to_string(value[0]) + ", " + std::to_string(value[1]) + ", " + std::to_string(value[2]) + ")");
-}
-
-// (u, v, w) -> (u/w, v/w)
-static Eigen::Vector3d readImagePoint(const char* what, int index, const Eigen::Vector3d& homogeneous) {
-  Eigen::Vector3d point = homogeneous[2] == 1 ? homogeneous : Eigen::Vector3d(homogeneous / homogeneous[2]);
-  checkFinite(what, index, point);
-  return point;
-}
-
-solvers::RayMatch readRay(const hybrid_pose::HybridAdapterBase& adapter, int index) {
-  const auto i = static_cast<std::size_t>(index);
-  const Eigen::Vector3d image = readImagePoint("getImagePoint2d2d", index, adapter.getImagePoint2d2d(i));
-  const Eigen::Vector3d direction = adapter.getCamRotation(i) * adapter.getBearingVector(i);
-  const double length = direction.norm();
-  if (!(length > 0) || !std::isfinite(length))
-    throwInvalid("adapter.getCamRotation(" + std::to_string(index) + ") * getBearingVector(" + std::to_string(index) + ")",
-                 "its length must be positive and finite, is " + std::to_string(length));
-  const Eigen::Vector3d centre = adapter.getCamOffset(i);
-  checkFinite("getCamOffset", index, centre);
-  return {image[0], image[1], centre, direction / length, adapter.getCamIndex(i)};
-}
-
-solvers::PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index) {
-  const auto i = static_cast<std::size_t>(index);
-  const Eigen::Vector3d image = readImagePoint("getImagePoint2d3d", index, adapter.getImagePoint2d3d(i));
-  const Eigen::Vector3d point = adapter.getPoint(i);
-  checkFinite("getPoint", index, point);
-  return {image[0], image[1], point};
 }
 
 }  // namespace hybridgv

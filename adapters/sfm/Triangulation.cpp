@@ -24,7 +24,7 @@ Eigen::Vector3d nearestToRays(const std::vector<View>& views) {
 }
 
 // The residuals' normal equations at `point`; returns the sum of squares, infinite if a camera does not have the point in front.
-double linearise(const std::vector<View>& views, const Eigen::Vector3d& point, Eigen::Matrix3d& JtJ, Eigen::Vector3d& Jtr,
+double linearize(const std::vector<View>& views, const Eigen::Vector3d& point, Eigen::Matrix3d& JtJ, Eigen::Vector3d& Jtr,
                  double& largestSquaredError) {
   double sum = largestSquaredError = 0;
   JtJ.setZero();
@@ -57,10 +57,10 @@ Triangulation triangulate(const std::vector<View>& views) {
   Eigen::Matrix3d JtJ, nextJtJ;
   Eigen::Vector3d Jtr, nextJtr;
   double error = 0, nextError = 0;
-  double cost = linearise(views, result.point, JtJ, Jtr, error);
+  double cost = linearize(views, result.point, JtJ, Jtr, error);
   for (int i = 0; i < kMaxIterations && std::isfinite(cost) && cost > 0; ++i) {
     const Eigen::Vector3d next = result.point - JtJ.ldlt().solve(Jtr);
-    const double nextCost = linearise(views, next, nextJtJ, nextJtr, nextError);
+    const double nextCost = linearize(views, next, nextJtJ, nextJtr, nextError);
     if (!(nextCost < cost)) break;
     const bool converged = cost - nextCost <= kConverged * cost;
     result.point = next, cost = nextCost, error = nextError, JtJ = nextJtJ, Jtr = nextJtr;

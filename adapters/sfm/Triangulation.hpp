@@ -23,7 +23,7 @@ struct Triangulation {
   double largestError = 0;  // of the reprojections [px], if isInFront
 };
 
-// Minimises the sum of squared reprojection errors of two or more views: Gauss-Newton from the point nearest to all rays.
+// Minimizes the sum of squared reprojection errors of two or more views: Gauss-Newton from the point nearest to all rays.
 Triangulation triangulate(const std::vector<View>& views);
 
 // Do the viewing rays of any two views meet at `minAngle` [rad] or a larger angle?

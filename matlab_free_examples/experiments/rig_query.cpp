@@ -24,7 +24,7 @@ constexpr double kMaxReprojectionErrorPx = 15, kProbability = 0.9999, kQueryFoca
 constexpr double kImageNoisePx = 2, kPointNoise = 0.1, kOutlierShare = 0.3;
 constexpr int kQueryCameras = 3;
 
-// 2D-3D matches of all the query's cameras (match i belongs to camera i mod 3), and separate ones of both types of the first.
+// 2D-3D matches of all the query's cameras (match i belongs to camera i mod 3), and separate ones of both kinds of the first.
 struct RigScene {
   FocalPose body;                  // the query rig's frame, which is the frame of its first camera
   std::vector<FocalPose> query;    // its cameras in the world

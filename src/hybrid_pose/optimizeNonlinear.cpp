@@ -31,12 +31,13 @@ static void setInformation(const robust::Matrix7& normalized, double unit, Nonli
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
                                    const FocalPose& initial) {
   if (indices.size() != 2) throwInvalid("indices", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
-  checkMultiIndices("indices", indices, static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size()), adapter);
+  checkMultiIndices("indices", indices, {static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size())},
+                    {adapter.getNumberCorrespondences2d2d(), adapter.getNumberCorrespondences2d3d()});
   checkPose("initial", initial);
 
-  const robust::HybridArrays arrays(adapter, indices[0], indices[1]);
+  const correspondences::CorrespondenceArrays arrays(adapter, indices[0], indices[1]);
   const robust::LeastSquaresProblem problem = robust::makeProblem(arrays, {}, {});
-  const robust::Normalization& normalization = arrays.normalization();
+  const correspondences::Normalization& normalization = arrays.normalization();
   const FocalPose start = normalization.apply(initial);
 
   robust::LeastSquaresOptions options;
@@ -53,10 +54,10 @@ NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::
 }
 
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial) {
-  return optimize_nonlinear(
-      adapter,
-      {robust::allIndices(adapter.getNumberCorrespondences2d2d()), robust::allIndices(adapter.getNumberCorrespondences2d3d())},
-      initial);
+  return optimize_nonlinear(adapter,
+                            {correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
+                             correspondences::allIndices(adapter.getNumberCorrespondences2d3d())},
+                            initial);
 }
 
 }  // namespace hybrid_pose

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hybrid_pose/EpipolarRay.hpp"
+#include "correspondences/EpipolarRay.hpp"
 
 namespace hybridgv {
 namespace hybrid_pose {
@@ -31,7 +31,7 @@ double sampsonError(const FocalPose& pose, const Eigen::Vector3d& imagePoint, co
   if (!isFinite(pose) || !imagePoint.allFinite() || !bearingVector.allFinite() || !camOffset.allFinite() ||
       !camRotation.allFinite() || !std::isfinite(rigFocalLength))
     return kInfinity;
-  const EpipolarRay ray = makeEpipolarRay(bearingVector, camRotation);
+  const correspondences::EpipolarRay ray = correspondences::makeEpipolarRay(bearingVector, camRotation);
   const Eigen::Vector3d inQuery(imagePoint[0] / imagePoint[2], imagePoint[1] / imagePoint[2], pose.focalLength);
   const Eigen::Vector3d w = pose.rotation * inQuery;
   const Eigen::Vector3d t = camOffset - pose.position;

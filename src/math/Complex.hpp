@@ -1,7 +1,7 @@
 // Complex numbers and image quantities for the inner loops of the solvers.
 #pragma once
 
-#include "math/Pair.hpp"
+#include "math/simd/Pair.hpp"
 
 namespace hybridgv {
 namespace math {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMaxShare = 0.5;
-// Natural log of the probability that a type's inliers are chance, below which they are taken as more than that.
+// Natural log of the probability that a kind's inliers are chance, below which they are taken as more than that.
 constexpr double kLogMoreThanChance = -7;
 
 class BoundingBox {
@@ -31,18 +31,18 @@ double share(double part, double whole) { return whole > 0 ? std::min(part / who
 
 }  // namespace
 
-ChanceModel::ChanceModel(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError)
+ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError)
     : leastFocalLength_(arrays.rayArrays().leastFocalLength) {
   BoundingBox query, map;
-  for (const solvers::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
-  for (const solvers::PointMatch& match : arrays.points()) query.add(match.u, match.v);
+  for (const correspondences::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
+  for (const correspondences::PointMatch& match : arrays.points()) query.add(match.u, match.v);
   const double band = 2 * std::sqrt(2.) * maxEpipolarError;
   rayShareOfQuery_ = share(band * query.diagonal(), query.area());
   pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, query.area());
 
-  for (const HybridArrays::MapImagePoint& point : arrays.mapImagePoints()) map.add(point.x, point.y);
+  for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) map.add(point.x, point.y);
   const double perPixel = band * map.diagonal() / (map.area() * static_cast<double>(arrays.rays().size()));
-  for (const HybridArrays::MapImagePoint& point : arrays.mapImagePoints()) {
+  for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) {
     if (point.focalLength > 0)
       knownMapShare_ += perPixel / point.focalLength;
     else

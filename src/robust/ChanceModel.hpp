@@ -1,13 +1,15 @@
 // How many inliers a wrong pose has by chance, and whether a pose has more.
 #pragma once
 
-#include "robust/HybridArrays.hpp"
+#include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Sampler.hpp"
 
 namespace hybridgv {
 namespace robust {
 
-// Numbers of inliers and of correspondences of both types.
+using correspondences::CorrespondenceArrays;
+
+// Numbers of inliers and of correspondences of both kinds.
 struct Support {
   int points = 0, allPoints = 0, rays = 0, allRays = 0;
 };
@@ -17,13 +19,13 @@ class ChanceModel {
   // Outliers are taken as uniform over the bounding boxes of the image points. Then a wrong pose has the share pi T^2 / area of
   // the points as inliers, and of the rays at most the sum over both images of 2 sqrt(2) T diagonal / area: an epipolar line is
   // at most as long as the diagonal, and one of the images has at least half of the squared Sampson error.
-  ChanceModel(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError);
+  ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError);
 
   // For a pose with this focal length, which is the pixel of map images with unknown focal length.
   double rayShare(double focalLength) const;
   double pointShare() const { return pointShare_; }
 
-  // Whether a pose has more inliers of a type than a wrong one would have.
+  // Whether a pose has more inliers of a kind than a wrong one would have.
   bool raysAreMoreThanChance(int inliers, int all, double focalLength) const;
   bool pointsAreMoreThanChance(int inliers, int all) const;
 

@@ -31,7 +31,7 @@ ErrorMixture makeMixture(double deviation, double scale, double density, const I
 
 }  // namespace
 
-TypeLoss ErrorMixture::loss() const { return {Loss::Mixture, scale, 2 / (scale * scale), odds}; }
+KindLoss ErrorMixture::loss() const { return {Loss::Mixture, scale, 2 / (scale * scale), odds}; }
 
 double ErrorMixture::logLikelihood(const std::vector<double>& squaredErrors) const {
   // The sum of logs as the log of products, which are taken before they can overflow: every factor is from 1 to 1e9 + 1.

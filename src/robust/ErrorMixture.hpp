@@ -1,4 +1,4 @@
-// The errors of one type of correspondence as a mixture of those of inliers and of outliers.
+// The errors of one kind of correspondence as a mixture of those of inliers and of outliers.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct ErrorMixture {
   double outlierShare = 1;
   double boundary = 0;  // [px] where inlier and outlier are equally likely; at least 2.5 deviations, at most the threshold
 
-  TypeLoss loss() const;
+  KindLoss loss() const;
   // Log of the likelihood of the errors over that of outliers only.
   double logLikelihood(const std::vector<double>& squaredErrors) const;
 };

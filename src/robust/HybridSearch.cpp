@@ -30,7 +30,7 @@ constexpr double kUnoptimizedShare = 0.5;
 
 // The indices 0 .. count-1 in random order.
 std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t stream) {
-  std::vector<int> order = allIndices(count);
+  std::vector<int> order = correspondences::allIndices(count);
   RandomStream random(seed, stream);
   for (std::size_t i = count; i > 1; --i)
     std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
@@ -40,7 +40,7 @@ std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t s
 // Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
 template <class Weight>
 std::vector<int> byQuality(const char* name, const std::vector<int>& indices, Weight weight) {
-  std::vector<int> order = allIndices(indices.size());
+  std::vector<int> order = correspondences::allIndices(indices.size());
   const auto weightOf = [&](int i) { return weight(static_cast<std::size_t>(indices[static_cast<std::size_t>(i)])); };
   for (const int i : order)
     if (!std::isfinite(weightOf(i)))
@@ -50,20 +50,21 @@ std::vector<int> byQuality(const char* name, const std::vector<int>& indices, We
   return order;
 }
 
-Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const HybridArrays& arrays, const std::vector<int>& rayIndices,
-                    const std::vector<int>& pointIndices, sac::Sampling sampling) {
+Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const CorrespondenceArrays& arrays,
+                    const std::vector<int>& rayIndices, const std::vector<int>& pointIndices, sac::Sampling sampling) {
   std::vector<int> cameras;
-  for (const solvers::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
-  if (sampling == sac::Sampling::Uniform) return {cameras, allIndices(rayIndices.size()), allIndices(pointIndices.size()), false};
+  for (const correspondences::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
+  if (sampling == sac::Sampling::Uniform)
+    return {cameras, correspondences::allIndices(rayIndices.size()), correspondences::allIndices(pointIndices.size()), false};
   std::vector<int> rays = byQuality("getWeight2d2d", rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
   std::vector<int> points = byQuality("getWeight2d3d", pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
   const bool weightsDiffer = !std::is_sorted(rays.begin(), rays.end()) || !std::is_sorted(points.begin(), points.end());
   return {cameras, std::move(rays), std::move(points), weightsDiffer};
 }
 
-HybridArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
-                        const std::vector<int>& points) {
-  HybridArrays arrays(adapter, rays, points);
+CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
+                                const std::vector<int>& points) {
+  CorrespondenceArrays arrays(adapter, rays, points);
   arrays.boundUnknownFocalLengths();
   return arrays;
 }
@@ -114,7 +115,7 @@ void HybridSearch::tryBatch(int count) {
   if (isWorthConsidering(*candidate)) consider(candidate->model);
 }
 
-// Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one type can
+// Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one kind can
 // be much less of an accident than one of the other.
 bool HybridSearch::Attempt::isLessLikelyChance(const Attempt& other) const {
   if (logChance != other.logChance) return logChance < other.logChance;
@@ -138,8 +139,8 @@ HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutio
   const Strategy& strategy = choice_.strategies()[attempt.strategy];
   const Sample sample = sampler_.draw(strategy.size, number, random);
 
-  solvers::RayMatch rays[kMaxSampleSize];
-  solvers::PointMatch points[kMaxSampleSize];
+  correspondences::RayMatch rays[kMaxSampleSize];
+  correspondences::PointMatch points[kMaxSampleSize];
   for (int k = 0; k < strategy.size.rays; ++k) rays[k] = arrays_.rays()[static_cast<std::size_t>(sample.rays[k])];
   for (int k = 0; k < strategy.size.points; ++k) points[k] = arrays_.points()[static_cast<std::size_t>(sample.points[k])];
   if (isDegenerate(rays, strategy.size.rays, points, strategy.size.points)) return attempt;
@@ -192,8 +193,8 @@ void HybridSearch::escapeLocalOptimum(Model& model) const {
   for (const double factor : kDistanceFactors)
     for (double before = -std::numeric_limits<double>::infinity(); model.logLikelihood > before + kLeastGain;) {
       before = model.logLikelihood;
-      const Types types = optimizer_.moreThanChance(model.pose);
-      replaceIfLikelier(optimizer_.settle(optimizer_.atDistance(model.pose, factor), types), model);
+      const Kinds kinds = optimizer_.moreThanChance(model.pose);
+      replaceIfLikelier(optimizer_.settle(optimizer_.atDistance(model.pose, factor), kinds), model);
     }
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "hybridgv/sac/HybridRansac.hpp"
+#include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/ChanceModel.hpp"
 #include "robust/LocalOptimizer.hpp"
 #include "robust/PoseScorer.hpp"
@@ -84,7 +84,7 @@ class HybridSearch {
   const sac::HybridRansacOptions& options_;
   Clock::time_point start_;
   std::vector<int> rayIndices_, pointIndices_;
-  HybridArrays arrays_;
+  CorrespondenceArrays arrays_;
   Sampler sampler_;
   SolverChoice choice_;
   PoseScorer scorer_;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "robust/toPlain.hpp"
+
 namespace hybridgv {
 namespace robust {
 namespace {
@@ -69,7 +71,7 @@ Vector7 dampedStep(const Linearization& at, double damping) {
 
 }  // namespace
 
-LeastSquaresProblem makeProblem(const HybridArrays& arrays, const TypeLoss& pointLoss, const TypeLoss& rayLoss) {
+LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss) {
   return {&kernels(), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss};
 }
 

@@ -4,19 +4,22 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "robust/HybridArrays.hpp"
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
 namespace robust {
 
+using correspondences::CorrespondenceArrays;
+
 using Matrix7 = Eigen::Matrix<double, kParameters, kParameters>;
 
-// The problem: minimise over both types the sum of precision * scale^2 rho((error / scale)^2).
+// The problem: minimize over both kinds the sum of precision * scale^2 rho((error / scale)^2).
 struct LeastSquaresProblem {
   const Kernels* kernels;
   PointArrays points;
   RayArrays rays;
-  TypeLoss pointLoss, rayLoss;
+  KindLoss pointLoss, rayLoss;
 };
 
 struct LeastSquaresOptions {
@@ -34,7 +37,7 @@ struct LeastSquaresResult {
   int iterations = 0;
 };
 
-LeastSquaresProblem makeProblem(const HybridArrays& arrays, const TypeLoss& pointLoss, const TypeLoss& rayLoss);
+LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss);
 
 // Never worse than the start: the cost of the result is at most that of the start. A start without finite cost or derivatives is
 // returned as it is, with converged = false and infinite cost.

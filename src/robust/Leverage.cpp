@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "robust/toPlain.hpp"
+
 namespace hybridgv {
 namespace robust {
 namespace {
@@ -12,7 +14,7 @@ constexpr double kMaxLeverage = 0.99;
 }  // namespace
 
 std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const FocalPose& pose) {
-  std::vector<double> leverages(padded(problem.rays.size), 0);
+  std::vector<double> leverages(correspondences::padded(problem.rays.size), 0);
   Matrix7 covariance;
   if (invertInformation(information(problem, pose), covariance))
     problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, covariance.data(), leverages.data());
@@ -23,7 +25,7 @@ std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const Focal
 std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose) {
   std::vector<double> result = rayLeverages(problem, pose);
   for (double& value : result) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
-  result.resize(padded(problem.rays.size), 1);
+  result.resize(correspondences::padded(problem.rays.size), 1);
   return result;
 }
 

@@ -16,7 +16,7 @@ constexpr double kMedianOne = 0.4549364231195728, kMedianTwo = 1.386294361119890
 // Errors of exact data are rounding: a deviation below this share of the threshold is not measured.
 constexpr double kLeastDeviation = 1e-6;
 // A few errors do not tell their deviation. With less than this number, part of its square is that of what is expected: that of
-// the other type, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
+// the other kind, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
 constexpr double kEnough = 20;
 constexpr double kExpectedPerThreshold = 1 / 2.5;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
@@ -42,7 +42,7 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
 }
 
-// The variance of one type's errors, of which `count` are known.
+// The variance of one kind's errors, of which `count` are known.
 struct Measured {
   double variance, threshold;
   std::size_t count;
@@ -51,15 +51,15 @@ struct Measured {
   double perThreshold() const { return std::sqrt(variance) / threshold; }
 };
 
-double deviation(const Measured& type, const Measured& other) {
+double deviation(const Measured& kind, const Measured& other) {
   const double expectedPerThreshold = other.known() * other.perThreshold() + (1 - other.known()) * kExpectedPerThreshold;
-  const double expected = type.threshold * std::min(expectedPerThreshold, kExpectedPerThreshold);
-  const double variance = type.known() * type.variance + (1 - type.known()) * expected * expected;
-  return std::max(std::sqrt(variance), kLeastDeviation * type.threshold);
+  const double expected = kind.threshold * std::min(expectedPerThreshold, kExpectedPerThreshold);
+  const double variance = kind.known() * kind.variance + (1 - kind.known()) * expected * expected;
+  return std::max(std::sqrt(variance), kLeastDeviation * kind.threshold);
 }
 
-TypeLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
-TypeLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
+KindLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
+KindLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
 
 // The narrowing must outlive the problem; empty means none.
 LeastSquaresProblem narrowed(LeastSquaresProblem problem, const std::vector<double>& narrowing) {
@@ -68,7 +68,7 @@ LeastSquaresProblem narrowed(LeastSquaresProblem problem, const std::vector<doub
 }
 
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
-// least in those of rays, which give way across one line. So neither type counts as better than the other, and rays as somewhat
+// least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as somewhat
 // worse, unless one is clearly the noisier.
 void allowForHiddenErrors(double& ray, double& point) {
   const double larger = std::max(ray, point);
@@ -91,31 +91,31 @@ FocalPose LocalOptimizer::refine(const FocalPose& start) const {
   const double ray = scorer_.maxEpipolarError(), point = scorer_.maxReprojectionError();
   FocalPose pose = start;
   for (const Stage& stage : stages)
-    pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, Types{}, stage.steps);
+    pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, Kinds{}, stage.steps);
   pose = minimized(truncatedLoss(ray), truncatedLoss(point), pose, moreThanChance(pose), {10, 1e-4});
   return settle(pose, moreThanChance(pose));
 }
 
-FocalPose LocalOptimizer::settle(const FocalPose& start, const Types& types) const {
-  return likeliest(start, types, 2, {10, 1e-4});
+FocalPose LocalOptimizer::settle(const FocalPose& start, const Kinds& kinds) const {
+  return likeliest(start, kinds, 2, {10, 1e-4});
 }
 
-FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Types& types, int rounds, const Steps& steps) const {
+FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
   FocalPose pose = start;
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(squaredErrors(pose, types), pose.focalLength);
-    pose = minimized(at.rays.loss(), at.points.loss(), pose, types, steps);
+    const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
+    pose = minimized(at.rays.loss(), at.points.loss(), pose, kinds, steps);
   }
   return pose;
 }
 
-FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Types& types, int rounds, const Steps& steps,
+FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps,
                                         std::vector<double>& narrowing) const {
   FocalPose pose = start;
   narrowing.clear();
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(squaredErrors(pose, types), pose.focalLength);
-    const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), types);
+    const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
+    const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
     narrowing = narrowingByLeverage(narrowed(robust, narrowing), pose);
     pose = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   }
@@ -137,9 +137,9 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
   return result;
 }
 
-FocalPose LocalOptimizer::minimized(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const FocalPose& start,
-                                    const Types& types, const Steps& steps) const {
-  return minimize(problem(rayLoss, pointLoss, types), start, limits(steps)).pose;
+FocalPose LocalOptimizer::minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const FocalPose& start,
+                                    const Kinds& kinds, const Steps& steps) const {
+  return minimize(problem(rayLoss, pointLoss, kinds), start, limits(steps)).pose;
 }
 
 LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
@@ -150,25 +150,25 @@ LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
   return options;
 }
 
-LeastSquaresProblem LocalOptimizer::problem(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const Types& types) const {
+LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const {
   LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss);
-  if (!types.rays) result.rays.size = 0;
-  if (!types.points) result.points.size = 0;
+  if (!kinds.rays) result.rays.size = 0;
+  if (!kinds.points) result.points.size = 0;
   return result;
 }
 
-Types LocalOptimizer::moreThanChance(const FocalPose& pose) const {
+Kinds LocalOptimizer::moreThanChance(const FocalPose& pose) const {
   const Evaluation evaluation = scorer_.evaluate(pose);
   const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
-  const Types types{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), pose.focalLength),
+  const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), pose.focalLength),
                     chance_.pointsAreMoreThanChance(evaluation.points, size(scorer_.arrays().points()))};
-  return types.rays || types.points ? types : Types{};
+  return kinds.rays || kinds.points ? kinds : Kinds{};
 }
 
-SquaredErrors LocalOptimizer::squaredErrors(const FocalPose& pose, const Types& types) const {
+SquaredErrors LocalOptimizer::squaredErrors(const FocalPose& pose, const Kinds& kinds) const {
   SquaredErrors result;
-  if (types.rays) result.rays = scorer_.squaredRayErrors(pose);
-  if (types.points) result.points = scorer_.squaredPointErrors(pose);
+  if (kinds.rays) result.rays = scorer_.squaredRayErrors(pose);
+  if (kinds.points) result.points = scorer_.squaredPointErrors(pose);
   return result;
 }
 
@@ -179,25 +179,25 @@ Noise LocalOptimizer::noise(const SquaredErrors& errors, double focalLength) con
   const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
   double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
   if (!rays.empty() && !points.empty()) allowForHiddenErrors(ray, point);
-  const HybridArrays& arrays = scorer_.arrays();
+  const CorrespondenceArrays& arrays = scorer_.arrays();
   return {rayMixture(ray, {rays.size(), arrays.rays().size(), maxRay, chance_.rayShare(focalLength)}),
           pointMixture(point, {points.size(), arrays.points().size(), maxPoint, chance_.pointShare()})};
 }
 
 double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
-  const SquaredErrors errors = squaredErrors(pose, Types{});
+  const SquaredErrors errors = squaredErrors(pose, Kinds{});
   const Noise at = noise(errors, pose.focalLength);
   return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points);
 }
 
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   FinalPose result;
-  const Types types = moreThanChance(start);
+  const Kinds kinds = moreThanChance(start);
   std::vector<double> narrowing;
   constexpr Steps kFine{20, 1e-8};
-  result.pose = optimize ? withoutLevers(likeliest(start, types, 1, kFine), types, 3, kFine, narrowing) : start;
+  result.pose = optimize ? withoutLevers(likeliest(start, kinds, 1, kFine), kinds, 3, kFine, narrowing) : start;
   // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.
-  const SquaredErrors errors = squaredErrors(result.pose, Types{});
+  const SquaredErrors errors = squaredErrors(result.pose, Kinds{});
   result.noise = noise(errors, result.pose.focalLength);
   ErrorMixture &ray = result.noise.rays, &point = result.noise.points;
   const std::vector<double> rays = below(errors.rays, ray.boundary);
@@ -207,7 +207,7 @@ FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   ray.deviation = deviation(measuredRays, measuredPoints);
   point.deviation = deviation(measuredPoints, measuredRays);
   const LeastSquaresProblem inliers =
-      problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), types);
+      problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), kinds);
   result.information = information(narrowed(inliers, narrowing), result.pose);
   return result;
 }

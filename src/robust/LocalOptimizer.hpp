@@ -1,4 +1,4 @@
-// Local optimization of a pose over the inliers of both types.
+// Local optimization of a pose over the inliers of both kinds.
 #pragma once
 
 #include "robust/ChanceModel.hpp"
@@ -9,8 +9,8 @@
 namespace hybridgv {
 namespace robust {
 
-// The types that an optimization uses.
-struct Types {
+// The kinds that an optimization uses.
+struct Kinds {
   bool rays = true, points = true;
 };
 
@@ -36,8 +36,8 @@ class LocalOptimizer {
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
   // wide, because a solution from noisy points is far from most viewing rays, and narrows down to the thresholds.
   FocalPose refine(const FocalPose& start) const;
-  // To a local optimum of the likelihood; the noise of each type is estimated on the way.
-  FocalPose settle(const FocalPose& start, const Types& types) const;
+  // To a local optimum of the likelihood; the noise of each kind is estimated on the way.
+  FocalPose settle(const FocalPose& start, const Kinds& kinds) const;
   // The same to full precision, then with single rays kept from deciding alone (narrowingByLeverage). Without `optimize` only the
   // noise and the information of the start.
   FinalPose polish(const FocalPose& start, bool optimize) const;
@@ -46,26 +46,26 @@ class LocalOptimizer {
   FocalPose atDistance(const FocalPose& pose, double factor) const;
   // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const FocalPose& pose) const;
-  // The types with more inliers than a wrong pose has; both if none has.
-  Types moreThanChance(const FocalPose& pose) const;
+  // The kinds with more inliers than a wrong pose has; both if none has.
+  Kinds moreThanChance(const FocalPose& pose) const;
 
  private:
-  // A type that is not used counts as absent.
-  SquaredErrors squaredErrors(const FocalPose& pose, const Types& types) const;
+  // A kind that is not used counts as absent.
+  SquaredErrors squaredErrors(const FocalPose& pose, const Kinds& kinds) const;
   Noise noise(const SquaredErrors& errors, double focalLength) const;
 
   struct Steps {
     int iterations;
     double minDecrease;
   };
-  FocalPose minimized(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const FocalPose& start, const Types& types,
+  FocalPose minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const FocalPose& start, const Kinds& kinds,
                       const Steps& steps) const;
-  FocalPose likeliest(const FocalPose& start, const Types& types, int rounds, const Steps& steps) const;
+  FocalPose likeliest(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
   // The same with narrowed losses of the rays, which are returned (see RayArrays; empty without rounds).
-  FocalPose withoutLevers(const FocalPose& start, const Types& types, int rounds, const Steps& steps,
+  FocalPose withoutLevers(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps,
                           std::vector<double>& narrowing) const;
   LeastSquaresOptions limits(const Steps& steps) const;
-  LeastSquaresProblem problem(const TypeLoss& rayLoss, const TypeLoss& pointLoss, const Types& types) const;
+  LeastSquaresProblem problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const;
 
   const PoseScorer& scorer_;
   const ChanceModel& chance_;

@@ -4,26 +4,28 @@
 #include <cmath>
 #include <limits>
 
+#include "robust/toPlain.hpp"
+
 namespace hybridgv {
 namespace robust {
 namespace {
 
 constexpr std::size_t kChunk = 64;
 
-// Wald's sequential probability ratio test of the inlier share of each type.
+// Wald's sequential probability ratio test of the inlier share of each kind.
 class SequentialTest {
  public:
   explicit SequentialTest(const Expectation& expectation) {
-    for (int type = 0; type < 2; ++type) {
-      const double good = expectation.goodShare[type], chance = expectation.chanceShare[type];
+    for (int kind = 0; kind < 2; ++kind) {
+      const double good = expectation.goodShare[kind], chance = expectation.chanceShare[kind];
       if (!(good > chance)) continue;
-      perInlier_[type] = std::log(good / chance);
-      perOutlier_[type] = std::log((1 - good) / (1 - chance));
+      perInlier_[kind] = std::log(good / chance);
+      perOutlier_[kind] = std::log((1 - good) / (1 - chance));
     }
   }
   // The log of the likelihood ratio good : chance.
-  void add(int type, int inliers, std::size_t count) {
-    ratio_ += inliers * perInlier_[type] + (static_cast<double>(count) - inliers) * perOutlier_[type];
+  void add(int kind, int inliers, std::size_t count) {
+    ratio_ += inliers * perInlier_[kind] + (static_cast<double>(count) - inliers) * perOutlier_[kind];
   }
   bool isHopeless() const { return ratio_ < kReject; }
 
@@ -34,7 +36,8 @@ class SequentialTest {
 
 }  // namespace
 
-PoseScorer::PoseScorer(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring)
+PoseScorer::PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError,
+                       sac::Scoring scoring)
     : arrays_(arrays),
       kernels_(kernels()),
       points_(arrays.pointArrays()),
@@ -45,7 +48,7 @@ PoseScorer::PoseScorer(const HybridArrays& arrays, double maxEpipolarError, doub
   makeChunks();
 }
 
-// Chunks of the two types by turns.
+// Chunks of the two kinds by turns.
 void PoseScorer::makeChunks() {
   for (std::size_t begin = 0; begin < std::max(points_.size, rays_.size); begin += kChunk) {
     if (begin < points_.size) chunks_.push_back({false, begin, std::min(begin + kChunk, points_.size)});
@@ -85,14 +88,14 @@ Evaluation PoseScorer::evaluate(const FocalPose& pose, const Expectation& expect
 }
 
 std::vector<double> PoseScorer::squaredRayErrors(const FocalPose& pose) const {
-  std::vector<double> errors(rays_.size + kPadding);
+  std::vector<double> errors(rays_.size + correspondences::kPadding);
   kernels_.squaredRayErrors(rays_, toPlain(pose), errors.data());
   errors.resize(rays_.size);
   return errors;
 }
 
 std::vector<double> PoseScorer::squaredPointErrors(const FocalPose& pose) const {
-  std::vector<double> errors(points_.size + kPadding);
+  std::vector<double> errors(points_.size + correspondences::kPadding);
   kernels_.squaredPointErrors(points_, toPlain(pose), errors.data());
   errors.resize(points_.size);
   return errors;

@@ -3,11 +3,14 @@
 
 #include <vector>
 
-#include "hybridgv/sac/HybridRansac.hpp"
-#include "robust/HybridArrays.hpp"
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
 namespace robust {
+
+using correspondences::CorrespondenceArrays;
 
 struct Evaluation {
   double score = 0;
@@ -19,7 +22,7 @@ struct Evaluation {
 // sequential test between the inlier shares of a pose worth keeping and of a wrong one.
 struct Expectation {
   double score = 0;
-  double goodShare[2] = {0, 0}, chanceShare[2] = {0, 0};  // of 2D-2D, 2D-3D; no test of a type whose good share is not larger
+  double goodShare[2] = {0, 0}, chanceShare[2] = {0, 0};  // of 2D-2D, 2D-3D; no test of a kind whose good share is not larger
 };
 
 // Probability that the sequential test gives up a pose that has the good shares.
@@ -28,17 +31,17 @@ constexpr double kFalseRejection = 0.01;
 class PoseScorer {
  public:
   // The arrays must outlive the scorer and be in random order.
-  PoseScorer(const HybridArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring);
+  PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring);
 
   Evaluation evaluate(const FocalPose& pose) const;
   Evaluation evaluate(const FocalPose& pose, const Expectation& expectation) const;
-  // Squared errors below the square of a type's threshold.
+  // Squared errors below the square of a kind's threshold.
   void inliers(const FocalPose& pose, std::vector<char>& rays, std::vector<char>& points) const;
-  // Errors of one type at a pose, infinite for those that are no inliers.
+  // Errors of one kind at a pose, infinite for those that are no inliers.
   std::vector<double> squaredRayErrors(const FocalPose& pose) const;
   std::vector<double> squaredPointErrors(const FocalPose& pose) const;
 
-  const HybridArrays& arrays() const { return arrays_; }
+  const CorrespondenceArrays& arrays() const { return arrays_; }
   double maxEpipolarError() const { return maxEpipolarError_; }
   double maxReprojectionError() const { return maxReprojectionError_; }
 
@@ -51,7 +54,7 @@ class PoseScorer {
   Score score(const Chunk& chunk, const PlainPose& pose) const;
   double gain(const Score& score) const;
 
-  const HybridArrays& arrays_;
+  const CorrespondenceArrays& arrays_;
   const Kernels& kernels_;
   PointArrays points_;
   RayArrays rays_;

@@ -22,18 +22,19 @@ bool areCollinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eige
   return ab.cross(ac).norm() <= kSmall * longest;
 }
 
-bool passesThrough(const solvers::RayMatch& ray, const Eigen::Vector3d& point) {
+bool passesThrough(const correspondences::RayMatch& ray, const Eigen::Vector3d& point) {
   const Eigen::Vector3d toPoint = point - ray.centre;
   return ray.direction.cross(toPoint).norm() <= kSmall * toPoint.norm();
 }
 
-bool isSameRay(const solvers::RayMatch& a, const solvers::RayMatch& b) {
+bool isSameRay(const correspondences::RayMatch& a, const correspondences::RayMatch& b) {
   return a.camera == b.camera && a.direction.cross(b.direction).norm() <= kSmall;
 }
 
 }  // namespace
 
-bool isDegenerate(const solvers::RayMatch* rays, int numberRays, const solvers::PointMatch* points, int numberPoints) {
+bool isDegenerate(const correspondences::RayMatch* rays, int numberRays, const correspondences::PointMatch* points,
+                  int numberPoints) {
   if (numberPoints >= 3 && areCollinear(points[0].point, points[1].point, points[2].point)) return true;
   for (int i = 0; i < numberPoints; ++i)
     for (int j = 0; j < i; ++j)

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "robust/RandomStream.hpp"
+#include "math/RandomStream.hpp"
 
 namespace hybridgv {
 namespace robust {
+
+using math::RandomStream;
 
 constexpr int kMaxSampleSize = 6;
 

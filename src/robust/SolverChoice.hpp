@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "hybridgv/sac/HybridRansac.hpp"
+#include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/Sampler.hpp"
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace robust {

@@ -40,7 +40,7 @@ void setStatistics(const robust::HybridSearch& search, HybridRansacResult& resul
 
 void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, HybridRansacResult& result) {
   const robust::FinalPose final = search.finish(options.finalOptimization);
-  const robust::Normalization& normalization = search.scorer().arrays().normalization();
+  const correspondences::Normalization& normalization = search.scorer().arrays().normalization();
   result.pose = normalization.undo(final.pose);
   result.noise2d2d = final.noise.rays.deviation, result.noise2d3d = final.noise.points.deviation;
   result.score = search.best().evaluation.score;

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "CheckArguments.hpp"
-#include "hybridgv/sac/HybridRansac.hpp"
+#include "hybridgv/sac/HybridRansacOptions.hpp"
 
 namespace hybridgv {
 namespace sac {

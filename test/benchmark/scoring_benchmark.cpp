@@ -4,7 +4,9 @@
 #include <string>
 
 #include "HybridScene.hpp"
-#include "robust/HybridArrays.hpp"
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "robust/kernels/Kernels.hpp"
+#include "robust/toPlain.hpp"
 
 namespace {
 
@@ -26,13 +28,13 @@ struct Data {
     test::Random random(1, 0);
     return test::makeHybridScene(random, options);
   }
-  static robust::HybridArrays read(const NoncentralHybridAdapter& adapter) {
-    return {adapter, robust::allIndices(adapter.getNumberCorrespondences2d2d()),
-            robust::allIndices(adapter.getNumberCorrespondences2d3d())};
+  static correspondences::CorrespondenceArrays read(const NoncentralHybridAdapter& adapter) {
+    return {adapter, correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
+            correspondences::allIndices(adapter.getNumberCorrespondences2d3d())};
   }
   test::HybridScene scene;
   NoncentralHybridAdapter adapter;
-  robust::HybridArrays arrays;
+  correspondences::CorrespondenceArrays arrays;
   std::vector<robust::PlainPose> poses;
 };
 

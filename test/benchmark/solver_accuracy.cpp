@@ -36,8 +36,8 @@ struct Row {
 };
 
 int solveH51f(const MinimalProblem& problem, FocalPose* poses, bool* complete) {
-  h51f::EndPoints ends;
-  const int found = h51f::solve(math::simdLevel(), problem.rays.data(), problem.points[0], poses, &ends);
+  solvers::h51f::EndPoints ends;
+  const int found = solvers::h51f::solve(math::simdLevel(), problem.rays.data(), problem.points[0], poses, &ends);
   *complete = ends.complete();
   return found;
 }
@@ -62,10 +62,11 @@ std::vector<Row> rows(bool awkward) {
     std::vector<int> raysPerCamera;
     int points;
     std::size_t exactPoints;
-  } solvers[] = {{"p4pf", &solvers::p4pf, {}, 4, 3},         {"p35pf", &solvers::p35pf, {}, 4, 3},
-                 {"h13f", &solvers::h13f, {1}, 3, 3},        {"h32f [1]", &solvers::h32f, {1, 1, 1}, 2, 2},
-                 {"h32f [2]", &solvers::h32f, {2, 1}, 2, 2}, {"h32f [3]", &solvers::h32f, {3}, 2, 2},
-                 {"h51f [5]", &solvers::h51f, {5}, 1, 1},    {"sixpt_onefocal", &solvers::sixptOnefocal, {6}, 0, 0}};
+  } solvers[] = {
+      {"p4pf", &solvers::three_points::p4pf, {}, 4, 3},  {"p35pf", &solvers::three_points::p35pf, {}, 4, 3},
+      {"h13f", &solvers::three_points::h13f, {1}, 3, 3}, {"h32f [1]", &solvers::h32f::solve, {1, 1, 1}, 2, 2},
+      {"h32f [2]", &solvers::h32f::solve, {2, 1}, 2, 2}, {"h32f [3]", &solvers::h32f::solve, {3}, 2, 2},
+      {"h51f [5]", &solvers::h51f::solve, {5}, 1, 1},    {"sixpt_onefocal", &solvers::one_centre::sixptOnefocal, {6}, 0, 0}};
   std::vector<Row> rows;
   for (const auto& solver : solvers) {
     if (!awkward) {
@@ -85,7 +86,7 @@ std::vector<Row> rows(bool awkward) {
       for (const OneCentreAwkwardCase& c : oneCentreAwkwardCases()) {
         const bool six = kind == OneCentreKind::SixRays;
         rows.push_back({std::string(six ? "sixpt_onefocal, " : "h51f [5], ") + c.name,
-                        six ? &solvers::sixptOnefocal : &solvers::h51fOneCentre, six ? 0u : 1u,
+                        six ? &solvers::one_centre::sixptOnefocal : &solvers::one_centre::h51f, six ? 0u : 1u,
                         [=](Random& random) { return makeOneCentreProblem(random, kind, c); }});
       }
   return rows;

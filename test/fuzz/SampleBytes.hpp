@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace fuzz {

@@ -40,7 +40,7 @@ double sampson(const Pair& pair, const Vector2d& inQuery, const Vector2d& inMap)
   return sampsonError(pair.query, homogeneous(inQuery), bearing, pair.map.position, pair.map.rotation, pair.map.focalLength);
 }
 
-TEST(ReprojectionError, is_the_distance_to_the_projection) {
+TEST(ReprojectionError, IsTheDistanceToTheProjection) {
   test::Random random(test::testSeed(), 1);
   for (int i = 0; i < 100; ++i) {
     const Pair pair = randomPair(random);
@@ -51,7 +51,7 @@ TEST(ReprojectionError, is_the_distance_to_the_projection) {
   }
 }
 
-TEST(ReprojectionError, is_infinite_for_points_not_in_front_and_for_non_finite_input) {
+TEST(ReprojectionError, IsInfiniteForPointsNotInFrontAndForNonFiniteInput) {
   test::Random random(test::testSeed(), 2);
   const Pair pair = randomPair(random);
   const Vector3d observed = homogeneous(test::project(pair.query, pair.point));
@@ -63,7 +63,7 @@ TEST(ReprojectionError, is_infinite_for_points_not_in_front_and_for_non_finite_i
 
 // The smallest joint move of both pixels that satisfies the epipolar constraint, by Newton's method on the constraint along its
 // gradient: the Sampson error is its first step.
-TEST(SampsonError, is_to_first_order_the_distance_to_the_epipolar_constraint) {
+TEST(SampsonError, IsToFirstOrderTheDistanceToTheEpipolarConstraint) {
   test::Random random(test::testSeed(), 3);
   for (int i = 0; i < 200; ++i) {
     const Pair pair = randomPair(random);
@@ -91,7 +91,7 @@ TEST(SampsonError, is_to_first_order_the_distance_to_the_epipolar_constraint) {
   }
 }
 
-TEST(SampsonError, takes_the_query_focal_length_where_the_rig_cameras_is_unknown) {
+TEST(SampsonError, TakesTheQueryFocalLengthWhereTheRigCamerasIsUnknown) {
   test::Random random(test::testSeed(), 4);
   for (int i = 0; i < 20; ++i) {
     const Pair pair = randomPair(random);
@@ -103,7 +103,7 @@ TEST(SampsonError, takes_the_query_focal_length_where_the_rig_cameras_is_unknown
   }
 }
 
-TEST(SampsonError, does_not_depend_on_the_lengths_of_its_homogeneous_arguments) {
+TEST(SampsonError, DoesNotDependOnTheLengthsOfItsHomogeneousArguments) {
   test::Random random(test::testSeed(), 5);
   const Pair pair = randomPair(random);
   const Vector3d q = homogeneous(test::project(pair.query, pair.point) + Vector2d(3, -4));
@@ -114,7 +114,7 @@ TEST(SampsonError, does_not_depend_on_the_lengths_of_its_homogeneous_arguments) 
   EXPECT_NEAR(error(-2, 0.1), error(1, 1), 1e-9);
 }
 
-TEST(SampsonError, is_infinite_unless_the_rays_meet_in_front_of_both_cameras) {
+TEST(SampsonError, IsInfiniteUnlessTheRaysMeetInFrontOfBothCameras) {
   test::Random random(test::testSeed(), 6);
   const Pair pair = randomPair(random);
   const Vector3d q = homogeneous(test::project(pair.query, pair.point));
@@ -132,7 +132,7 @@ TEST(SampsonError, is_infinite_unless_the_rays_meet_in_front_of_both_cameras) {
 
 // Omnidirectional cameras: turning a camera so that the ray points backwards leaves a valid correspondence, and near the optical
 // axis the pinhole image and the tangent plane of the sphere agree.
-TEST(SampsonError, accepts_bearing_vectors_that_point_backwards) {
+TEST(SampsonError, AcceptsBearingVectorsThatPointBackwards) {
   test::Random random(test::testSeed(), 7);
   for (int i = 0; i < 100; ++i) {
     const Pair pair = randomPair(random);

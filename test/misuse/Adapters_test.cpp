@@ -28,7 +28,7 @@ void expectWrong(const std::string& wrong, const std::string& argument, const st
       wrong, [&] { arguments.adapter(); }, argument);
 }
 
-TEST(Misuse, noncentral_adapter_refuses_numbers_that_are_not_finite) {
+TEST(Misuse, NoncentralAdapterRefusesNumbersThatAreNotFinite) {
   const struct {
     const char* name;
     Vectors Arguments::*list;
@@ -48,7 +48,7 @@ TEST(Misuse, noncentral_adapter_refuses_numbers_that_are_not_finite) {
       }
 }
 
-TEST(Misuse, noncentral_adapter_refuses_lists_that_do_not_fit) {
+TEST(Misuse, NoncentralAdapterRefusesListsThatDoNotFit) {
   expectWrong("too few", "bearingVectors", [](Arguments& a) { a.bearingVectors.pop_back(); });
   expectWrong("too many", "bearingVectors", [](Arguments& a) { a.bearingVectors.push_back({0, 0, 1}); });
   expectWrong("too few", "camIndices", [](Arguments& a) { a.camIndices.pop_back(); });
@@ -61,7 +61,7 @@ TEST(Misuse, noncentral_adapter_refuses_lists_that_do_not_fit) {
   expectWrong("too many", "imagePoints2d3d", [](Arguments& a) { a.imagePoints2d3d.push_back({0, 0, 1}); });
 }
 
-TEST(Misuse, noncentral_adapter_refuses_impossible_values) {
+TEST(Misuse, NoncentralAdapterRefusesImpossibleValues) {
   for (const int index : {-1, std::numeric_limits<int>::min(), 2, std::numeric_limits<int>::max()})
     expectWrong("index " + std::to_string(index), "camIndices[1]", [index](Arguments& a) { a.camIndices[1] = index; });
   expectWrong("point at infinity", "imagePoints2d2d[0]", [](Arguments& a) { a.imagePoints2d2d[0][2] = 0; });
@@ -72,7 +72,7 @@ TEST(Misuse, noncentral_adapter_refuses_impossible_values) {
   expectWrong("zero", "camRotations[1]", [](Arguments& a) { a.camRotations[1].setZero(); });
 }
 
-TEST(Misuse, noncentral_adapter_refuses_wrong_focal_lengths_and_weights) {
+TEST(Misuse, NoncentralAdapterRefusesWrongFocalLengthsAndWeights) {
   NoncentralHybridAdapter adapter = Arguments().adapter();
   for (const std::size_t count : {0, 1, 3}) {
     const std::vector<double> wrong(count, 1);

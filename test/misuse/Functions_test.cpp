@@ -48,7 +48,7 @@ std::vector<int> upTo(int count) {
   return indices;
 }
 
-TEST(Misuse, solvers_refuse_wrong_indices) {
+TEST(Misuse, SolversRefuseWrongIndices) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   for (const PublicSolver& solver : publicSolvers()) {
     const MultiIndices good{upTo(solver.rays), upTo(solver.points)};
@@ -88,7 +88,7 @@ TEST(Misuse, solvers_refuse_wrong_indices) {
 }
 
 // More indices than a solver needs are no error: the first ones are used.
-TEST(Misuse, solvers_use_the_first_of_too_many_indices) {
+TEST(Misuse, SolversUseTheFirstOfTooManyIndices) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   for (const PublicSolver& solver : publicSolvers()) {
     const FocalPoses expected = solver.solve(adapter, {upTo(solver.rays), upTo(solver.points)});
@@ -98,7 +98,7 @@ TEST(Misuse, solvers_use_the_first_of_too_many_indices) {
   }
 }
 
-TEST(Misuse, solvers_refuse_adapters_with_too_few_correspondences) {
+TEST(Misuse, SolversRefuseAdaptersWithTooFewCorrespondences) {
   const NoncentralHybridAdapter empty({}, {}, {}, {}, {}, {}, {});
   Random random(testSeed() + 801);
   for (const PublicSolver& solver : publicSolvers()) {
@@ -117,7 +117,7 @@ TEST(Misuse, solvers_refuse_adapters_with_too_few_correspondences) {
   }
 }
 
-TEST(Misuse, solvers_refuse_numbers_that_are_not_finite) {
+TEST(Misuse, SolversRefuseNumbersThatAreNotFinite) {
   for (const PublicSolver& solver : publicSolvers()) {
     std::vector<WrongField> fields;
     if (solver.rays > 0) fields = wrongRayFields();
@@ -132,7 +132,7 @@ TEST(Misuse, solvers_refuse_numbers_that_are_not_finite) {
   }
 }
 
-TEST(Misuse, optimize_nonlinear_refuses_wrong_arguments) {
+TEST(Misuse, OptimizeNonlinearRefusesWrongArguments) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   const FocalPose start;
   const auto optimize = [&](const MultiIndices& indices) { hybrid_pose::optimize_nonlinear(adapter, indices, start); };
@@ -188,7 +188,7 @@ TEST(Misuse, optimize_nonlinear_refuses_wrong_arguments) {
 }
 
 // The errors answer every number that is not finite by infinity, an outlier for any threshold.
-TEST(Misuse, residuals_of_numbers_that_are_not_finite_are_infinite) {
+TEST(Misuse, ResidualsOfNumbersThatAreNotFiniteAreInfinite) {
   Random random(testSeed() + 802);
   const FocalPose query = cameraLookingAtOrigin(random, 20, 1000), map = cameraLookingAtOrigin(random, 20, 1000);
   const Eigen::Vector3d image = project(query, Eigen::Vector3d::Zero()).homogeneous(), point = Eigen::Vector3d::Zero();
@@ -238,7 +238,7 @@ TEST(Misuse, residuals_of_numbers_that_are_not_finite_are_infinite) {
   }
 }
 
-TEST(Misuse, unknown_solver_names_are_refused) {
+TEST(Misuse, UnknownSolverNamesAreRefused) {
   for (const char* name : {"", "H13F", "h13f ", "p3p"})
     expectRefused(
         name, [&] { solverFromString(name); }, "solver");

@@ -41,7 +41,7 @@ void expectWrong(const std::string& wrong, const std::string& argument, const st
       wrong, [&] { lists.wrap(); }, argument);
 }
 
-TEST(Misuse, opengv_adapter_refuses_what_a_pinhole_query_cannot_be) {
+TEST(Misuse, OpengvAdapterRefusesWhatAPinholeQueryCannotBe) {
   for (const double value : notFinite()) {
     const std::string wrong = std::to_string(value);
     for (int k = 0; k < 3; ++k) {
@@ -66,7 +66,7 @@ TEST(Misuse, opengv_adapter_refuses_what_a_pinhole_query_cannot_be) {
 }
 
 // What the adapter does not look at itself is refused where it is used.
-TEST(Misuse, numbers_of_opengvs_rig_that_are_not_finite_are_refused_by_the_solvers) {
+TEST(Misuse, NumbersOfOpengvsRigThatAreNotFiniteAreRefusedByTheSolvers) {
   for (const double value : notFinite()) {
     OpenGVLists lists;
     lists.offsets[1][0] = value;
@@ -80,7 +80,7 @@ TEST(Misuse, numbers_of_opengvs_rig_that_are_not_finite_are_refused_by_the_solve
   }
 }
 
-TEST(Misuse, problems_refuse_wrong_thresholds_solvers_and_adapters) {
+TEST(Misuse, ProblemsRefuseWrongThresholdsSolversAndAdapters) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   const auto expectAllRefuse = [](const std::string& wrong, const std::string& argument,
                                   const hybrid_pose::HybridAdapterBase& data, Solver solver, double reprojection,
@@ -113,7 +113,7 @@ TEST(Misuse, problems_refuse_wrong_thresholds_solvers_and_adapters) {
   }
 }
 
-TEST(Misuse, problems_refuse_wrong_indices) {
+TEST(Misuse, ProblemsRefuseWrongIndices) {
   const NoncentralHybridAdapter adapter = goodAdapter();  // 12 + 8
   const HybridProblemCore core(adapter, Solver::H13f, 1, 1);
   HybridPoseSacProblem flat(adapter, Solver::H13f, 1, 1);
@@ -217,7 +217,7 @@ TEST(Misuse, problems_refuse_wrong_indices) {
   EXPECT_FALSE(core.computeModel({{0}, {0, 1, 1}}, {0}, model));
 }
 
-TEST(Misuse, nothing_agrees_with_a_model_that_is_not_finite) {
+TEST(Misuse, NothingAgreesWithAModelThatIsNotFinite) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   const HybridProblemCore core(adapter, Solver::H13f, 1, 1);
   std::vector<double> distances;

@@ -8,7 +8,7 @@ namespace {
 
 using sac::HybridRansacOptions;
 
-TEST(Misuse, ransac_refuses_wrong_options) {
+TEST(Misuse, RansacRefusesWrongOptions) {
   const struct {
     const char* option;
     std::vector<double> wrong;
@@ -39,7 +39,7 @@ TEST(Misuse, ransac_refuses_wrong_options) {
     }
 }
 
-TEST(Misuse, ransac_refuses_wrong_lists_of_solvers_and_wrong_starts) {
+TEST(Misuse, RansacRefusesWrongListsOfSolversAndWrongStarts) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   HybridRansacOptions options;
   options.solvers = {};
@@ -61,7 +61,7 @@ TEST(Misuse, ransac_refuses_wrong_lists_of_solvers_and_wrong_starts) {
   }
 }
 
-TEST(Misuse, ransac_refuses_numbers_that_are_not_finite) {
+TEST(Misuse, RansacRefusesNumbersThatAreNotFinite) {
   std::vector<WrongField> fields = wrongRayFields();
   const std::vector<WrongField> ofPoints = wrongPointFields();
   fields.insert(fields.end(), ofPoints.begin(), ofPoints.end());
@@ -82,13 +82,13 @@ TEST(Misuse, ransac_refuses_numbers_that_are_not_finite) {
   }
 }
 
-TEST(Misuse, ransac_without_correspondences_has_a_reason) {
+TEST(Misuse, RansacWithoutCorrespondencesHasAReason) {
   const sac::HybridRansacResult result = sac::hybridRansac(NoncentralHybridAdapter({}, {}, {}, {}, {}, {}, {}));
   EXPECT_FALSE(result.success);
   EXPECT_EQ(result.failureReason, sac::FailureReason::TooFewCorrespondences);
 }
 
-TEST(Misuse, unknown_reasons_are_refused) {
+TEST(Misuse, UnknownReasonsAreRefused) {
   for (const int value : {-1, 1000}) {
     expectRefused(
         "failure", [&] { toString(static_cast<sac::FailureReason>(value)); }, "reason");

@@ -28,7 +28,7 @@ void expectCameraRefused(const std::string& wrong, const sfm::Camera& camera) {
       "camera");
 }
 
-TEST(Misuse, wrong_cameras_are_refused) {
+TEST(Misuse, WrongCamerasAreRefused) {
   for (const CameraModel model : kModels) {
     const sfm::Camera good = makeCamera(model);
     const std::string name = sfm::toString(model);
@@ -121,7 +121,7 @@ std::vector<WrongModel> wrongModels() {
   return models;
 }
 
-TEST(Misuse, writers_refuse_wrong_models_and_write_nothing) {
+TEST(Misuse, WritersRefuseWrongModelsAndWriteNothing) {
   const SparseModel good = goodModel();
   std::vector<WrongModel> models = wrongModels();
   models.push_back({"equal camera ids", [](SparseModel& m) { m.cameras[1].id = m.cameras[0].id; }, "model.cameras[1]"});
@@ -141,7 +141,7 @@ TEST(Misuse, writers_refuse_wrong_models_and_write_nothing) {
   }
 }
 
-TEST(Misuse, localization_problems_refuse_wrong_arguments) {
+TEST(Misuse, LocalizationProblemsRefuseWrongArguments) {
   const SparseModel good = goodModel();
   for (const std::size_t index : {good.images.size(), static_cast<std::size_t>(-1)})
     expectRefused(
@@ -177,14 +177,14 @@ TEST(Misuse, localization_problems_refuse_wrong_arguments) {
   }
 }
 
-TEST(Misuse, shares_of_outliers_outside_0_to_1_are_refused) {
+TEST(Misuse, SharesOfOutliersOutside0To1AreRefused) {
   const sfm::LocalizationProblem problem = sfm::makeLocalizationProblem(goodModel(), 0);
   for (const double share : {kNaN, kInfinite, -kInfinite, -0.1, 1.1})
     expectRefused(
         std::to_string(share), [&] { sfm::injectOutliers(problem, share, 1); }, "share");
 }
 
-TEST(Misuse, files_that_are_not_there_are_named) {
+TEST(Misuse, FilesThatAreNotThereAreNamed) {
   const std::string path = "/nonexistent/model";
   const std::vector<std::function<void()>> calls{[&] { sfm::readModel(path); },
                                                  [&] { sfm::readColmapText(path); },

@@ -86,12 +86,12 @@ int countRight(const SceneOptions& sceneOptions, HybridRansacOptions options, in
   return right;
 }
 
-TEST(HybridRansac, finds_the_pose_at_every_share_of_outliers) {
+TEST(HybridRansac, FindsThePoseAtEveryShareOfOutliers) {
   for (const double outliers : {0., 0.3, 0.5, 0.7})
     EXPECT_EQ(countRight(noisy(100, 100, outliers), thresholds(), 10, 70), 10) << outliers;
 }
 
-TEST(HybridRansac, masks_are_the_true_inliers) {
+TEST(HybridRansac, MasksAreTheTrueInliers) {
   test::Random random(test::testSeed(), 71);
   const HybridScene scene = test::makeHybridScene(random, noisy(200, 200, 0.4));
   const HybridRansacResult result = hybridRansac(scene.adapter(), thresholds());
@@ -101,7 +101,7 @@ TEST(HybridRansac, masks_are_the_true_inliers) {
   EXPECT_LE(different, 12) << "some outliers match by chance";
 }
 
-TEST(HybridRansac, noisy_points_are_outweighed_by_exact_rays) {
+TEST(HybridRansac, NoisyPointsAreOutweighedByExactRays) {
   SceneOptions sceneOptions = noisy(150, 150, 0.3);
   sceneOptions.pointNoise = 0.4;
   HybridRansacOptions options = thresholds();
@@ -109,9 +109,9 @@ TEST(HybridRansac, noisy_points_are_outweighed_by_exact_rays) {
   EXPECT_GE(countRight(sceneOptions, options, 15, 72), 14);
 }
 
-// ---- one type is bad or absent ----
+// ---- one kind is bad or absent ----
 
-TEST(HybridRansac, all_rays_outliers) {
+TEST(HybridRansac, AllRaysOutliers) {
   SceneOptions scene = noisy(150, 150, 0.3);
   scene.outlierShareRays = 1;
   EXPECT_EQ(countRight(scene, thresholds(), 10, 73), 10);
@@ -122,7 +122,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-TEST(HybridRansac, outlier_rays_cost_neither_accuracy_nor_many_samples) {
+TEST(HybridRansac, OutlierRaysCostNeitherAccuracyNorManySamples) {
   SceneOptions sceneOptions = noisy(150, 150, 0.4);
   sceneOptions.outlierShareRays = 1;
   std::vector<double> hybridErrors, pointErrors;
@@ -142,7 +142,7 @@ TEST(HybridRansac, outlier_rays_cost_neither_accuracy_nor_many_samples) {
   EXPECT_LT(hybridSamples, 1.5 * pointSamples);
 }
 
-TEST(HybridRansac, all_points_outliers_give_no_wrong_success) {
+TEST(HybridRansac, AllPointsOutliersGiveNoWrongSuccess) {
   SceneOptions scene = noisy(150, 150, 0.2);
   scene.outlierSharePoints = 1;
   HybridRansacOptions options = thresholds();
@@ -150,15 +150,15 @@ TEST(HybridRansac, all_points_outliers_give_no_wrong_success) {
   EXPECT_GE(countRight(scene, options, 6, 74), 4) << "the rays determine the pose";
 }
 
-TEST(HybridRansac, all_outliers_give_no_success) {
+TEST(HybridRansac, AllOutliersGiveNoSuccess) {
   HybridRansacOptions options = thresholds();
   options.maxIterations = 500;
   EXPECT_EQ(countRight(noisy(150, 150, 1), options, 10, 75), 0);
 }
 
-TEST(HybridRansac, no_rays) { EXPECT_EQ(countRight(noisy(0, 80, 0.3), thresholds(), 10, 76), 10); }
+TEST(HybridRansac, NoRays) { EXPECT_EQ(countRight(noisy(0, 80, 0.3), thresholds(), 10, 76), 10); }
 
-TEST(HybridRansac, no_points_is_too_few) {
+TEST(HybridRansac, NoPointsIsTooFew) {
   test::Random random(test::testSeed(), 77);
   const HybridScene scene = test::makeHybridScene(random, noisy(80, 0, 0));
   const HybridRansacResult result = hybridRansac(scene.adapter());
@@ -167,24 +167,24 @@ TEST(HybridRansac, no_points_is_too_few) {
   EXPECT_EQ(result.inliers2d2d.size(), 80u);
 }
 
-TEST(HybridRansac, three_points_and_many_rays) {
+TEST(HybridRansac, ThreePointsAndManyRays) {
   SceneOptions scene = noisy(120, 3, 0);
   scene.outlierShareRays = 0.3;
   EXPECT_EQ(countRight(scene, thresholds(), 10, 78), 10);
 }
 
-TEST(HybridRansac, three_rays_and_many_points) {
+TEST(HybridRansac, ThreeRaysAndManyPoints) {
   SceneOptions scene = noisy(3, 120, 0);
   scene.outlierSharePoints = 0.3;
   EXPECT_EQ(countRight(scene, thresholds(), 10, 79), 10);
 }
 
-TEST(HybridRansac, nothing_at_all) {
+TEST(HybridRansac, NothingAtAll) {
   const NoncentralHybridAdapter adapter({}, {}, {}, {}, {}, {}, {});
   EXPECT_EQ(hybridRansac(adapter).failureReason, FailureReason::TooFewCorrespondences);
 }
 
-TEST(HybridRansac, four_points_alone_prove_nothing) {
+TEST(HybridRansac, FourPointsAloneProveNothing) {
   test::Random random(test::testSeed(), 80);
   const HybridScene scene = test::makeHybridScene(random, noisy(0, 4, 0));
   HybridRansacOptions options = thresholds();
@@ -196,20 +196,20 @@ TEST(HybridRansac, four_points_alone_prove_nothing) {
 
 // ---- degenerate geometry ----
 
-TEST(HybridRansac, all_points_coplanar) {
+TEST(HybridRansac, AllPointsCoplanar) {
   SceneOptions scene = noisy(100, 100, 0.3);
   scene.coplanar = true;
   EXPECT_GE(countRight(scene, thresholds(), 12, 81), 11);
 }
 
-TEST(HybridRansac, all_rays_from_one_camera) {
+TEST(HybridRansac, AllRaysFromOneCamera) {
   SceneOptions scene = noisy(100, 100, 0.3);
   scene.cameras = 1;
   EXPECT_EQ(countRight(scene, thresholds(), 10, 82), 10);
 }
 
 // The relative pose is found, but not the distance: nothing but chance fixes it.
-TEST(HybridRansac, rays_from_one_camera_and_outlier_points_are_no_success) {
+TEST(HybridRansac, RaysFromOneCameraAndOutlierPointsAreNoSuccess) {
   SceneOptions scene = noisy(150, 100, 0.1);
   scene.cameras = 1, scene.outlierSharePoints = 1;
   HybridRansacOptions options = thresholds();
@@ -217,7 +217,7 @@ TEST(HybridRansac, rays_from_one_camera_and_outlier_points_are_no_success) {
   EXPECT_EQ(countRight(scene, options, 6, 83), 0);
 }
 
-TEST(HybridRansac, identical_points_and_collinear_points_end_without_success) {
+TEST(HybridRansac, IdenticalPointsAndCollinearPointsEndWithoutSuccess) {
   HybridRansacOptions options = thresholds();
   options.maxIterations = 300;
   EXPECT_EQ(countRight(noisy(0, 40, 0), options, 3, 84,
@@ -235,7 +235,7 @@ TEST(HybridRansac, identical_points_and_collinear_points_end_without_success) {
 
 // ---- hard data ----
 
-TEST(HybridRansac, ninety_five_percent_outliers_end_within_the_time_budget) {
+TEST(HybridRansac, NinetyFivePercentOutliersEndWithinTheTimeBudget) {
   test::Random random(test::testSeed(), 86);
   const HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.95));
   HybridRansacOptions options = thresholds();
@@ -248,7 +248,7 @@ TEST(HybridRansac, ninety_five_percent_outliers_end_within_the_time_budget) {
   EXPECT_LT(result.iterations, 1 << 30);
 }
 
-TEST(HybridRansac, scene_far_from_the_origin_and_of_any_scale) {
+TEST(HybridRansac, SceneFarFromTheOriginAndOfAnyScale) {
   SceneOptions options = noisy(100, 100, 0.3);
   test::Random random(test::testSeed(), 87);
   for (const double scale : {1e-3, 1e3}) {
@@ -275,7 +275,7 @@ void expectEqual(const HybridRansacResult& a, const HybridRansacResult& b) {
   EXPECT_EQ(a.covariance, b.covariance);
 }
 
-TEST(HybridRansac, equal_seeds_give_equal_bits_for_any_number_of_threads) {
+TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
   test::Random random(test::testSeed(), 88);
   const HybridScene scene = test::makeHybridScene(random, noisy(150, 150, 0.6));
   const NoncentralHybridAdapter adapter = scene.adapter();
@@ -291,7 +291,7 @@ TEST(HybridRansac, equal_seeds_give_equal_bits_for_any_number_of_threads) {
   EXPECT_NE(hybridRansac(adapter, options).iterationsPerSolver, one.iterationsPerSolver);
 }
 
-TEST(HybridRansac, only_the_given_solvers_are_drawn) {
+TEST(HybridRansac, OnlyTheGivenSolversAreDrawn) {
   test::Random random(test::testSeed(), 89);
   const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
   for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f}) {
@@ -305,7 +305,7 @@ TEST(HybridRansac, only_the_given_solvers_are_drawn) {
   }
 }
 
-TEST(HybridRansac, every_choice_of_scoring_and_optimization_finds_the_pose) {
+TEST(HybridRansac, EveryChoiceOfScoringAndOptimizationFindsThePose) {
   test::Random random(test::testSeed(), 90);
   const HybridScene scene = test::makeHybridScene(random, noisy(150, 150, 0.3));
   for (const auto scoring : {sac::Scoring::Msac, sac::Scoring::InlierCount})
@@ -322,7 +322,7 @@ TEST(HybridRansac, every_choice_of_scoring_and_optimization_finds_the_pose) {
       }
 }
 
-TEST(HybridRansac, initial_pose_is_used_if_it_is_good_and_does_no_harm_if_not) {
+TEST(HybridRansac, InitialPoseIsUsedIfItIsGoodAndDoesNoHarmIfNot) {
   test::Random random(test::testSeed(), 91);
   const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.6));
   HybridRansacOptions options = thresholds();
@@ -340,7 +340,7 @@ TEST(HybridRansac, initial_pose_is_used_if_it_is_good_and_does_no_harm_if_not) {
   EXPECT_TRUE(bad.success && isRight(bad.pose, scene.truth));
 }
 
-TEST(HybridRansac, focal_bounds_are_kept) {
+TEST(HybridRansac, FocalBoundsAreKept) {
   test::Random random(test::testSeed(), 92);
   const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
   HybridRansacOptions options = thresholds();
@@ -355,7 +355,7 @@ TEST(HybridRansac, focal_bounds_are_kept) {
 }
 
 // Good correspondences first: far fewer samples than uniform sampling, with the same result.
-TEST(HybridRansac, quality_order_speeds_up_the_search) {
+TEST(HybridRansac, QualityOrderSpeedsUpTheSearch) {
   test::Random random(test::testSeed(), 93);
   HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.9));
   NoncentralHybridAdapter adapter = scene.adapter();
@@ -372,7 +372,7 @@ TEST(HybridRansac, quality_order_speeds_up_the_search) {
 }
 
 // The squared error of the focal length, measured in the stated variance, has mean 1 (a little more: noise is estimated).
-TEST(HybridRansac, standard_deviation_of_the_focal_length_is_that_of_its_errors) {
+TEST(HybridRansac, StandardDeviationOfTheFocalLengthIsThatOfItsErrors) {
   test::Random random(test::testSeed(), 94);
   double squares = 0;
   const int count = 150;
@@ -386,7 +386,7 @@ TEST(HybridRansac, standard_deviation_of_the_focal_length_is_that_of_its_errors)
   EXPECT_LT(squares / count, 2.5);
 }
 
-TEST(HybridRansac, wrong_options_are_refused) {
+TEST(HybridRansac, WrongOptionsAreRefused) {
   const NoncentralHybridAdapter adapter({}, {}, {}, {}, {}, {}, {});
   const std::vector<std::function<void(HybridRansacOptions&)>> mistakes = {
       [](auto& o) { o.maxReprojectionErrorPx = 0; },
@@ -413,7 +413,7 @@ TEST(HybridRansac, wrong_options_are_refused) {
   }
 }
 
-TEST(HybridRansac, reasons_have_names) {
+TEST(HybridRansac, ReasonsHaveNames) {
   EXPECT_STREQ(toString(FailureReason::None), "none");
   EXPECT_STREQ(toString(FailureReason::UndeterminedPose), "pose not determined by the inliers");
   EXPECT_STREQ(toString(StopReason::Confident), "confident");

@@ -41,12 +41,12 @@ Dual<V> operator*(const Dual<V>& a, const Dual<V>& b) {
   return product;
 }
 template <class V>
-Dual<V> operator*(const h51f::ComplexNumber& a, const Dual<V>& b) {
+Dual<V> operator*(const solvers::h51f::ComplexNumber& a, const Dual<V>& b) {
   return Dual<V>{{V{} + static_cast<Real<V>>(a.re), V{} + static_cast<Real<V>>(a.im)}} * b;
 }
 template <class V>
 Dual<V> operator-(const Dual<V>& a, const Dual<V>& b) {
-  return a + h51f::ComplexNumber{-1, 0} * b;
+  return a + solvers::h51f::ComplexNumber{-1, 0} * b;
 }
 
 struct H32fSystem {
@@ -55,7 +55,7 @@ struct H32fSystem {
   enum RayParameter { Direction, Centre = 3, Image = 6, ImageBar };
   enum Parameter { PointImages = 8 * kRays, PointImagesBar = PointImages + 2, kParameters = PointImagesBar + 2 };
 
-  using Parameters = std::vector<h51f::ComplexNumber>;
+  using Parameters = std::vector<solvers::h51f::ComplexNumber>;
 
   template <class Scalar>
   struct Homotopy {
@@ -84,7 +84,7 @@ struct H32fSystem {
   template <bool derivative, class V>
   static void evaluate(const Homotopy<Real<V>>&, V, const Data<V>& data, const Complex<V> (&unknowns)[kUnknowns],
                        Complex<V> (&rows)[kUnknowns][kUnknowns + 1 + derivative]) {
-    constexpr h51f::ComplexNumber kI{0, 1}, kTwo{2, 0}, kMinusTwo{-2, 0};
+    constexpr solvers::h51f::ComplexNumber kI{0, 1}, kTwo{2, 0}, kMinusTwo{-2, 0};
     const Complex<V> unity{V{} + 1, V{}};
     Dual<V> one{unity}, x{unknowns[X]}, y{unknowns[Y]}, d{unknowns[D]};
     x.d[X] = y.d[Y] = unity, d.d[D] = unknowns[D];

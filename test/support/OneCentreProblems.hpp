@@ -100,7 +100,7 @@ inline MinimalProblem makeOneCentreProblem(Random& random, OneCentreKind kind, c
 
 inline FocalPoses solveOneCentre(const MinimalProblem& problem) {
   FocalPose solutions[solvers::kMaxSolutions];
-  const auto solve = problem.points.empty() ? &solvers::sixptOnefocal : &solvers::h51fOneCentre;
+  const auto solve = problem.points.empty() ? &solvers::one_centre::sixptOnefocal : &solvers::one_centre::h51f;
   const int count = solve(problem.rays.data(), problem.points.data(), solutions);
   return {solutions, solutions + count};
 }

@@ -12,7 +12,7 @@ inline void addNoise(Random& random, double sigma, MinimalProblem& problem) {
   for (solvers::PointMatch& match : problem.points) match.u += sigma * random.normal(), match.v += sigma * random.normal();
 }
 
-// Every k-th correspondence of each type gets a random image point.
+// Every k-th correspondence of each kind gets a random image point.
 inline void addOutliers(Random& random, std::size_t k, MinimalProblem& problem) {
   for (std::size_t i = 0; i < problem.rays.size(); i += k)
     problem.rays[i].u = random.uniform(-500, 500), problem.rays[i].v = random.uniform(-500, 500);

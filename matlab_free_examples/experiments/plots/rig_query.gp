@@ -5,7 +5,7 @@ set output output("rig_query")
 set multiplot layout 1, 2 title "Query rig: OpenGV's gp3p with all of its cameras, HybridGV with one of unknown focal length" margins 0.08, 0.99, 0.14, 0.9 spacing 0.1, 0.05
 # The three rows of every number of matches.
 methods = "'gp3p, 3 cameras, focal length known' 'hybridRansac, 1 camera, 2D-3D' 'hybridRansac, 1 camera, 2D-3D and 2D-2D'"
-set xlabel "matches of each type and query camera"
+set xlabel "matches of each kind and query camera"
 set logscale x
 set xrange [4:75]
 set xtics (5, 10, 20, 60)

@@ -1,4 +1,4 @@
-// Tracks the solutions of a parametrised square system F(x, t) = 0 from t = 0 to t = 1, one path per SIMD lane.
+// Tracks the solutions of a parametrized square system F(x, t) = 0 from t = 0 to t = 1, one path per SIMD lane.
 //
 // Every lane has its own position and step size; a lane that has finished takes the next path. A step is a predictor, a Newton
 // step that also bounds the predictor's error, and a second Newton step that gives the tangent at the new point as well:

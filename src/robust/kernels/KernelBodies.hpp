@@ -238,12 +238,12 @@ class LogSum {
 };
 
 // x = narrowing (error / scale)^2; that of no valid correspondence is infinite.
-inline Real relativeSquare(const TypeLoss& loss, Mask valid, Real squaredError, Real narrowing) {
+inline Real relativeSquare(const KindLoss& loss, Mask valid, Real squaredError, Real narrowing) {
   return where(valid, narrowing * squaredError * (1 / (loss.scale * loss.scale)), all(kInfinity));
 }
 
 // The derivative of rho(x) for one kind of loss; rho(infinity) has none.
-inline Real slope(const TypeLoss& loss, Real x) {
+inline Real slope(const KindLoss& loss, Real x) {
   switch (loss.loss) {
     case Loss::Quadratic:
       break;
@@ -255,10 +255,10 @@ inline Real slope(const TypeLoss& loss, Real x) {
   return all(1);
 }
 
-// The cost of one type's correspondences, and their weights.
+// The cost of one kind's correspondences, and their weights.
 class CostSum {
  public:
-  explicit CostSum(const TypeLoss& loss) : loss_(loss) {}
+  explicit CostSum(const KindLoss& loss) : loss_(loss) {}
 
   // Adds what the correspondences cost, and returns the weights of their squared errors. Those that are not valid have weight 0.
   // `narrowing` may be null.
@@ -287,7 +287,7 @@ class CostSum {
   }
   Real mixtureFactor(Real x) const { return (1.0 + loss_.odds) / (1.0 + loss_.odds / toTheEighth(1.0 + x)); }
 
-  TypeLoss loss_;
+  KindLoss loss_;
   LogSum logs_;
   Real rho_{};
 };
@@ -366,7 +366,7 @@ class PointSums {
   Real gradient_[kParameters] = {};
 };
 
-void addPoints(const PointArrays& points, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
+void addPoints(const PointArrays& points, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (points.size == 0) return;
   const Pose pose(plainPose);
   const Real inverseFocal = all(1 / plainPose.focalLength);
@@ -436,12 +436,12 @@ class NormalEquationsSum {
 
 inline bool pixelVaries(const RayArrays& rays, const PlainPose& pose) { return pose.focalLength >= rays.leastFocalLength; }
 
-inline Mask isValid(const Epipolar& ray, Real squaredError, const TypeLoss& loss) {
+inline Mask isValid(const Epipolar& ray, Real squaredError, const KindLoss& loss) {
   const Mask isFinite = (ray.variance > 0) & (squaredError < kInfinity);
   return loss.loss == Loss::Quadratic ? isFinite : isFinite & ray.inFront();
 }
 
-void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, NormalEquations& total) {
+void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (rays.size == 0) return;
   const Pose pose(plainPose);
   const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));
@@ -462,7 +462,7 @@ void addRays(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& 
   sums.addTo(total);
 }
 
-void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, const TypeLoss& loss, const double* covariance,
+void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, const double* covariance,
                   double* leverages) {
   const Pose pose(plainPose);
   const Real unknownPixel = all(squaredPixelOfUnknown(rays, plainPose));

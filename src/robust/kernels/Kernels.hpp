@@ -1,39 +1,23 @@
-// The loops over all correspondences: errors of a pose, its score, its normal equations. Plain data only, no Eigen type: these
+// The loops over all correspondences: errors of a pose, its score, its normal equations. Plain data only, no Eigen kind: these
 // functions exist once per instruction set and are chosen at run time.
 #pragma once
 
 #include <cstddef>
 
-#include "math/SimdLevel.hpp"
+#include "correspondences/ArrayViews.hpp"
+#include "math/simd/SimdLevel.hpp"
 
 namespace hybridgv {
 namespace robust {
 
-// Arrays are padded to a multiple of this many entries, with entries that have an infinite error.
-constexpr std::size_t kPadding = 8;
+using correspondences::PointArrays;
+using correspondences::RayArrays;
 
 // A pose as the kernels read it: the columns r1, r2, r3 of the rotation (query -> rig), the position, the focal length.
 struct PlainPose {
   double r1[3], r2[3], r3[3];
   double position[3];
   double focalLength;
-};
-
-// 2D-3D correspondences: image point (u, v), rig point (x, y, z).
-struct PointArrays {
-  std::size_t size = 0;  // without the padding
-  const double *u, *v, *x, *y, *z;
-};
-
-// 2D-2D correspondences: image point (u, v), centre c of the rig camera, direction d and image normal a (EpipolarRay). The square
-// of the map image's pixel is squaredPixel (1/g^2) where g is known; otherwise that is 0 and isUnknown is 1, not 0: then g is the
-// query's focal length, but at least leastFocalLength. The loss of a ray is narrower than TypeLoss says by the square root of its
-// `narrowing`, with the same curvature at 0; null: by 1.
-struct RayArrays {
-  std::size_t size = 0;
-  double leastFocalLength = 0;
-  const double *u, *v, *cx, *cy, *cz, *dx, *dy, *dz, *ax, *ay, *az, *squaredPixel, *isUnknown;
-  const double* narrowing = nullptr;
 };
 
 struct Score {
@@ -48,8 +32,8 @@ enum class Loss {
   Mixture,    // rho = log((1 + a) / (1 + a / (1 + x)^8)), a = odds: see ErrorMixture
 };
 
-// How one type of correspondence enters a robust least-squares problem: the sum of precision * scale^2 rho(x) is minimised.
-struct TypeLoss {
+// How one kind of correspondence enters a robust least-squares problem: the sum of precision * scale^2 rho(x) is minimized.
+struct KindLoss {
   Loss loss = Loss::Quadratic;
   double scale = 1;      // [px]
   double precision = 1;  // [1/px^2]
@@ -66,7 +50,7 @@ struct NormalEquations {
   double hessian[kTriangle] = {};  // upper triangle, row by row
 };
 
-// One instruction set's versions. Ranges [begin, end) begin at a multiple of kPadding and end at one or at the arrays' size.
+// One instruction set's versions. Ranges [begin, end) begin at a multiple of correspondences::kPadding and end at one or at the arrays' size.
 struct Kernels {
   // Squared errors; infinite as reprojectionError and sampsonError are. `errors` has room for the padding.
   void (*squaredPointErrors)(const PointArrays&, const PlainPose&, double* errors);
@@ -74,10 +58,10 @@ struct Kernels {
   Score (*scorePoints)(const PointArrays&, const PlainPose&, double squaredThreshold, std::size_t begin, std::size_t end);
   Score (*scoreRays)(const RayArrays&, const PlainPose&, double squaredThreshold, std::size_t begin, std::size_t end);
   // Add to the sums. A point that is not in front of the query costs rho(infinity), as does a ray but for Loss::Quadratic.
-  void (*addPoints)(const PointArrays&, const PlainPose&, const TypeLoss&, NormalEquations&);
-  void (*addRays)(const RayArrays&, const PlainPose&, const TypeLoss&, NormalEquations&);
+  void (*addPoints)(const PointArrays&, const PlainPose&, const KindLoss&, NormalEquations&);
+  void (*addRays)(const RayArrays&, const PlainPose&, const KindLoss&, NormalEquations&);
   // W J C J^T of every ray, C a symmetric 7x7 matrix. `leverages` has room for the padding.
-  void (*rayLeverages)(const RayArrays&, const PlainPose&, const TypeLoss&, const double* covariance, double* leverages);
+  void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
 };
 
 extern const Kernels kKernelsSse2;

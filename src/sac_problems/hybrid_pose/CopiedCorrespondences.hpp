@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace sac_problems {
@@ -16,8 +16,8 @@ class CopiedCorrespondences : public hybridgv::hybrid_pose::HybridAdapterBase {
   explicit CopiedCorrespondences(const HybridAdapterBase& adapter);
 
   // What a minimal solver takes.
-  const solvers::RayMatch& ray(std::size_t index) const { return rays_[index]; }
-  const solvers::PointMatch& pointMatch(std::size_t index) const { return points_[index]; }
+  const correspondences::RayMatch& ray(std::size_t index) const { return rays_[index]; }
+  const correspondences::PointMatch& pointMatch(std::size_t index) const { return points_[index]; }
 
   std::size_t getNumberCorrespondences2d2d() const override { return rays_.size(); }
   Eigen::Vector3d getImagePoint2d2d(std::size_t index) const override { return {rays_[index].u, rays_[index].v, 1}; }
@@ -34,8 +34,8 @@ class CopiedCorrespondences : public hybridgv::hybrid_pose::HybridAdapterBase {
   double getWeight2d3d(std::size_t index) const override { return weights2d3d_[index]; }
 
  private:
-  std::vector<solvers::RayMatch> rays_;
-  std::vector<solvers::PointMatch> points_;
+  std::vector<correspondences::RayMatch> rays_;
+  std::vector<correspondences::PointMatch> points_;
   std::vector<Eigen::Vector3d> bearingVectors_;
   std::vector<Eigen::Matrix3d> camRotations_;
   std::vector<double> rigFocalLengths_, weights2d2d_, weights2d3d_;

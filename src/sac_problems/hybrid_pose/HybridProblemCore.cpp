@@ -6,12 +6,14 @@
 #include <string>
 
 #include "CheckArguments.hpp"
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "hybrid_pose/solveSample.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
-#include "robust/HybridArrays.hpp"
+#include "robust/kernels/Kernels.hpp"
+#include "robust/toPlain.hpp"
 #include "sac_problems/hybrid_pose/CopiedCorrespondences.hpp"
 #include "sac_problems/hybrid_pose/drawSample.hpp"
 #include "sac_problems/hybrid_pose/isDegenerate.hpp"
-#include "solvers/solveSample.hpp"
 
 namespace hybridgv {
 namespace sac_problems {
@@ -22,8 +24,8 @@ namespace {
 constexpr std::size_t kMaxSampleSize = 6;
 
 struct Sample {
-  std::array<solvers::RayMatch, kMaxSampleSize> rays;
-  std::array<solvers::PointMatch, kMaxSampleSize> points;
+  std::array<correspondences::RayMatch, kMaxSampleSize> rays;
+  std::array<correspondences::PointMatch, kMaxSampleSize> points;
 };
 
 void checkThreshold(const char* name, double value) {
@@ -48,8 +50,8 @@ struct HybridProblemCore::Data {
   Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx)
       : solver(solvers::minimalSolver(id)),
         correspondences(adapter),
-        arrays(correspondences, robust::allIndices(adapter.getNumberCorrespondences2d2d()),
-               robust::allIndices(adapter.getNumberCorrespondences2d3d())),
+        arrays(correspondences, correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
+               correspondences::allIndices(adapter.getNumberCorrespondences2d3d())),
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx) {
     arrays.boundUnknownFocalLengths();
@@ -66,9 +68,9 @@ struct HybridProblemCore::Data {
 
   // (error / threshold)^2 of all correspondences at their flat indices; infinite where the error is.
   void computeSquaredDistances(const FocalPose& pose, std::vector<double>& result) const {
-    const robust::RayArrays rays = arrays.rayArrays();
-    const robust::PointArrays points = arrays.pointArrays();
-    result.resize(rays.size + points.size + robust::kPadding);
+    const correspondences::RayArrays rays = arrays.rayArrays();
+    const correspondences::PointArrays points = arrays.pointArrays();
+    result.resize(rays.size + points.size + correspondences::kPadding);
     double* const ofPoints = result.data() + rays.size;
     const robust::PlainPose plain = robust::toPlain(arrays.normalization().apply(pose));
     robust::kernels().squaredRayErrors(rays, plain, result.data());  // their padding is overwritten by the points
@@ -103,7 +105,7 @@ struct HybridProblemCore::Data {
 
   const solvers::MinimalSolver& solver;
   const CopiedCorrespondences correspondences;
-  robust::HybridArrays arrays;
+  correspondences::CorrespondenceArrays arrays;
   std::vector<int> cameras;  // of the 2D-2D correspondences
   const double maxReprojectionErrorPx, maxEpipolarErrorPx;
 };
@@ -162,7 +164,7 @@ bool HybridProblemCore::computeModel(const MultiIndices& sample, const std::vect
   std::vector<double> squaredDistances;
   double best = std::numeric_limits<double>::infinity();
   for (const FocalPose& solution : solutions) {
-    if (solvers::overflows(solution)) continue;
+    if (hybridgv::hybrid_pose::overflows(solution)) continue;
     data_->computeSquaredDistances(solution, squaredDistances);
     double cost = 0;
     for (int i : pool) {

@@ -9,9 +9,9 @@ namespace sac_problems {
 namespace hybrid_pose {
 namespace {
 
+using correspondences::PointMatch;
+using correspondences::RayMatch;
 using Eigen::Vector3d;
-using solvers::PointMatch;
-using solvers::RayMatch;
 
 constexpr double kTolerance = 1e-6;
 

@@ -3,7 +3,7 @@
 
 namespace hybridgv {
 namespace solvers {
-namespace hidden_variable {
+namespace h32f {
 
 // With the depth d = e delta and w = 1 - e^2 the equation of ray j is
 //
@@ -17,6 +17,6 @@ struct Forms {
   double a[3][3][3], b[3][3][3], k[3][3][3];  // [power of delta][coefficient][ray]
 };
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

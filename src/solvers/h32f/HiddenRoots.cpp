@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/Bernstein.hpp"
+#include "math/roots/Bernstein.hpp"
 
 namespace hybridgv {
 namespace solvers {
-namespace hidden_variable {
+namespace h32f {
 
 namespace {
 
@@ -178,6 +178,6 @@ bool Search::resample(Piece& piece) {
 
 int hiddenRoots(const Forms& forms, const Kernel& kernel, double* e) { return Search(forms, kernel, e).run(); }
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

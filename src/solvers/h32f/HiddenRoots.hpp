@@ -5,7 +5,7 @@
 
 namespace hybridgv {
 namespace solvers {
-namespace hidden_variable {
+namespace h32f {
 
 // Writes the roots, and values that rounding does not tell from roots, to e; returns their number (at most kBatch).
 //
@@ -17,6 +17,6 @@ namespace hidden_variable {
 // Returns 0 if R vanishes identically (degenerate data).
 int hiddenRoots(const Forms& forms, const Kernel& kernel, double* e);
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

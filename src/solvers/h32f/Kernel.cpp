@@ -3,19 +3,19 @@
 namespace hybridgv {
 
 namespace sse2 {
-extern const solvers::hidden_variable::Kernel kH32fKernel;
+extern const solvers::h32f::Kernel kH32fKernel;
 }
 #if defined(HYBRIDGV_X86_KERNELS)
 namespace avx2 {
-extern const solvers::hidden_variable::Kernel kH32fKernel;
+extern const solvers::h32f::Kernel kH32fKernel;
 }
 namespace avx512 {
-extern const solvers::hidden_variable::Kernel kH32fKernel;
+extern const solvers::h32f::Kernel kH32fKernel;
 }
 #endif
 
 namespace solvers {
-namespace hidden_variable {
+namespace h32f {
 
 const Kernel& kernel(math::SimdLevel level) {
 #if defined(HYBRIDGV_X86_KERNELS)
@@ -27,6 +27,6 @@ const Kernel& kernel(math::SimdLevel level) {
 
 const Kernel& kernel() { return kernel(math::simdLevel()); }
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

@@ -1,20 +1,21 @@
 // The arithmetic of H32f that runs over many values side by side, for three instruction sets.
 #pragma once
 
-#include "math/SimdLevel.hpp"
+#include "math/simd/SimdLevel.hpp"
 #include "solvers/h32f/Forms.hpp"
 #include "solvers/h32f/SampleTables.hpp"
 
 namespace hybridgv {
 
 struct FocalPose;
+namespace correspondences {
+struct RayMatch;
+struct PointMatch;
+}  // namespace correspondences
 
 namespace solvers {
 
-struct RayMatch;
-struct PointMatch;
-
-namespace hidden_variable {
+namespace h32f {
 
 // Room for the samples of one call, and for the roots. All arrays are padded to a multiple of 8 entries, the widest vector; the
 // entries beyond the count must be defined, and are computed along.
@@ -52,8 +53,9 @@ const Kernel& kernel();
 const Kernel& kernel(math::SimdLevel level);
 
 // The solver h32f with a kernel of choice.
-int solve(const RayMatch* rays, const PointMatch* points, const Kernel& kernel, FocalPose* solutions);
+int solve(const correspondences::RayMatch* rays, const correspondences::PointMatch* points, const Kernel& kernel,
+          FocalPose* solutions);
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

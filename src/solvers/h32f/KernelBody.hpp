@@ -9,14 +9,14 @@
 namespace hybridgv {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-using solvers::hidden_variable::Candidates;
-using solvers::hidden_variable::Forms;
-using solvers::hidden_variable::kDegree;
-using solvers::hidden_variable::kHalf;
-using solvers::hidden_variable::kPieces;
-using solvers::hidden_variable::PieceCoefficients;
-using solvers::hidden_variable::PowerForms;
-using solvers::hidden_variable::SampleTables;
+using solvers::h32f::Candidates;
+using solvers::h32f::Forms;
+using solvers::h32f::kDegree;
+using solvers::h32f::kHalf;
+using solvers::h32f::kPieces;
+using solvers::h32f::PieceCoefficients;
+using solvers::h32f::PowerForms;
+using solvers::h32f::SampleTables;
 
 constexpr int kWidth = LaneTraits<Doubles>::kWidth;
 
@@ -215,9 +215,9 @@ static void newton(const Forms& forms, int count, Candidates& candidates) {
   }
 }
 
-extern const solvers::hidden_variable::Kernel kH32fKernel;
-const solvers::hidden_variable::Kernel kH32fKernel = {&determinants, &bernsteinCoefficients, &simpleRoots,
-                                                      &polishRoots,  &nullVectors,           &newton};
+extern const solvers::h32f::Kernel kH32fKernel;
+const solvers::h32f::Kernel kH32fKernel = {&determinants, &bernsteinCoefficients, &simpleRoots,
+                                           &polishRoots,  &nullVectors,           &newton};
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace hybridgv

@@ -6,7 +6,7 @@
 
 namespace hybridgv {
 namespace solvers {
-namespace hidden_variable {
+namespace h32f {
 
 constexpr long double kPi = 3.141592653589793238462643383279502884L;
 constexpr double kRho = 0.8;
@@ -89,6 +89,6 @@ SampleTables::SampleTables() {
   }
 }
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

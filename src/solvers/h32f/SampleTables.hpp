@@ -1,11 +1,11 @@
 // The constants by which the resultant of H32f is sampled and turned into piecewise polynomials.
 #pragma once
 
-#include "math/RationalChebyshev.hpp"
+#include "math/roots/RationalChebyshev.hpp"
 
 namespace hybridgv {
 namespace solvers {
-namespace hidden_variable {
+namespace h32f {
 
 // The Dixon determinant is R(e) = const (1-e^2)^14 e^6 R26(e), deg R26 = 26. What is sampled and searched for roots is
 //
@@ -46,6 +46,6 @@ struct SampleTables {
   static double factor(double e);
 };
 
-}  // namespace hidden_variable
+}  // namespace h32f
 }  // namespace solvers
 }  // namespace hybridgv

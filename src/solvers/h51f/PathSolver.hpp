@@ -14,6 +14,8 @@
 namespace hybridgv {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
+namespace h51f = solvers::h51f;
+
 class PathSolver {
  public:
   PathSolver(const h51f::StartSystem& start, const h51f::Parameters& target)

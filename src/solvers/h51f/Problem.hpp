@@ -5,6 +5,7 @@
 #include "math/homotopy/Data.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 constexpr int kRays = 5;
@@ -57,4 +58,5 @@ struct Homotopy {
 Homotopy<double> straightHomotopy(const Parameters& start, const Parameters& target);
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -8,6 +8,7 @@
 #include <numeric>
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 using Eigen::Matrix3d;
@@ -55,7 +56,7 @@ Sharing arrange(const RayMatch* rays, const PointMatch& point, RayMatch* arrange
   return sharing;
 }
 
-bool normalise(Sharing sharing, const RayMatch* rays, const PointMatch& point, Frame* frame) {
+bool normalize(Sharing sharing, const RayMatch* rays, const PointMatch& point, Frame* frame) {
   *frame = Frame();
   frame->origin = point.point;
   double meanDistance = 0, meanRadius = std::hypot(point.u, point.v) / (kRays + 1);
@@ -72,7 +73,7 @@ bool normalise(Sharing sharing, const RayMatch* rays, const PointMatch& point, F
   return frame->imageScale > 0 && frame->length > 0;
 }
 
-// The rotation Q that maximises the trace of Q^T K; about the third axis if that must stay.
+// The rotation Q that maximizes the trace of Q^T K; about the third axis if that must stay.
 static Matrix3d closestRotation(const Matrix3d& K, bool keepThirdAxis) {
   if (keepThirdAxis)
     return Eigen::AngleAxisd(std::atan2(K(1, 0) - K(0, 1), K(0, 0) + K(1, 1)), Vector3d::UnitZ()).toRotationMatrix();
@@ -151,4 +152,5 @@ FocalPose poseOf(const Solution& solution, const Frame& frame, const PointMatch&
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

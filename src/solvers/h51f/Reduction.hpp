@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 // How many of the first rays have the centre (0, 0, kSharedCentre).
@@ -34,7 +35,7 @@ struct Frame {
 // The 3D point as origin; a shared centre at (0, 0, kSharedCentre), otherwise mean distance 1 of the rays from the origin; mean
 // distance 1/4 of the image points from the principal point. Directions, moments and image points then have the spread that the
 // start systems have. False if a scale is 0.
-bool normalise(Sharing sharing, const solvers::RayMatch* rays, const solvers::PointMatch& point, Frame* frame);
+bool normalize(Sharing sharing, const solvers::RayMatch* rays, const solvers::PointMatch& point, Frame* frame);
 
 // Turns the rig's and the image's axes so that the sample comes close to the real parts of a start system: least squares over
 // directions and moments of the rays, and over the image points. A shared centre stays where it is.
@@ -57,4 +58,5 @@ Solution solutionOf(const FocalPose& pose, const Frame& frame, const solvers::Po
 FocalPose poseOf(const Solution& solution, const Frame& frame, const solvers::PointMatch& point);
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -3,6 +3,7 @@
 #include "solvers/h51f/StartSystems.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 static const math::Point<float, kUnknowns> kSolutions[] = {
@@ -83,4 +84,5 @@ const StartSystem kStartAtMostTwo = {
     kSolutions};
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -3,6 +3,7 @@
 #include "solvers/h51f/StartSystems.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 static const math::Point<float, kUnknowns> kSolutions[] = {
@@ -63,4 +64,5 @@ const StartSystem kStartFour = {
     kSolutions};
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -4,6 +4,7 @@
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 extern const StartSystem kStartAtMostTwo, kStartThree, kStartFour;
@@ -13,4 +14,5 @@ inline const StartSystem& startSystem(Sharing sharing) {
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

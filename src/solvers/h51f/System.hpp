@@ -22,6 +22,8 @@
 namespace hybridgv {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
+namespace h51f = solvers::h51f;
+
 // Values and derivatives of the coefficients at t.
 template <class V, int Degree>
 HYBRIDGV_INLINE Complex<V> valueAt(const math::Polynomial<Real<V>, Degree>& p, V t) {

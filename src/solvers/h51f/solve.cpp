@@ -9,11 +9,10 @@
 #include "solvers/meetInFront.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 using Eigen::Vector3d;
-using solvers::PointMatch;
-using solvers::RayMatch;
 
 // Relative to the image scale: the distance of image points from the images of their rays, and the focal length, below which
 // image points at the principal point make spurious solutions.
@@ -39,7 +38,7 @@ int solve(math::SimdLevel level, const RayMatch* rays, const PointMatch& point, 
   RayMatch arranged[kRays];
   const Sharing sharing = arrange(rays, point, arranged);
   Frame frame;
-  if (!normalise(sharing, arranged, point, &frame)) return 0;
+  if (!normalize(sharing, arranged, point, &frame)) return 0;
   const StartSystem& start = startSystem(sharing);
   alignWith(start, arranged, point, &frame);
   Parameters target = parametersIn(frame, sharing, arranged, point);
@@ -56,4 +55,5 @@ int solve(math::SimdLevel level, const RayMatch* rays, const PointMatch& point, 
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -1,16 +1,18 @@
 // H51f except for five rays of one centre, with all choices open.
 #pragma once
 
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/solvePaths.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 // Writes the poses to `solutions` and returns their number; contract of MinimalSolver.hpp. `ends` tells whether the set of
-// complex solutions behind them is complete; it has no paths if the sample cannot be normalised.
+// complex solutions behind them is complete; it has no paths if the sample cannot be normalized.
 int solve(math::SimdLevel level, const solvers::RayMatch* rays, const solvers::PointMatch& point, FocalPose* solutions,
           EndPoints* ends);
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -1,6 +1,7 @@
 #include "solvers/h51f/solvePaths.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameters& target, EndPoints* ends) {
@@ -14,4 +15,5 @@ void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameter
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -1,10 +1,11 @@
 // Tracks all solutions of a start system to the target and sorts the end points.
 #pragma once
 
-#include "math/SimdLevel.hpp"
+#include "math/simd/SimdLevel.hpp"
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 struct EndPoints {
@@ -34,4 +35,5 @@ void solvePathsAvx2(const StartSystem& start, const Parameters& target, EndPoint
 void solvePathsAvx512(const StartSystem& start, const Parameters& target, EndPoints* ends);
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

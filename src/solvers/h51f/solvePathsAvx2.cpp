@@ -2,11 +2,13 @@
 #include "solvers/h51f/PathSolver.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 void solvePathsAvx2(const StartSystem& start, const Parameters& target, EndPoints* ends) {
-  avx2::PathSolver(start, target).solve(ends);
+  hybridgv::avx2::PathSolver(start, target).solve(ends);
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

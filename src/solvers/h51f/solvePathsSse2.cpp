@@ -2,11 +2,13 @@
 #include "solvers/h51f/PathSolver.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 void solvePathsSse2(const StartSystem& start, const Parameters& target, EndPoints* ends) {
-  sse2::PathSolver(start, target).solve(ends);
+  hybridgv::sse2::PathSolver(start, target).solve(ends);
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -3,6 +3,7 @@
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {
+namespace solvers {
 namespace h51f {
 
 using Number = std::complex<double>;
@@ -51,4 +52,5 @@ Homotopy<double> straightHomotopy(const Parameters& start, const Parameters& tar
 }
 
 }  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -90,7 +90,7 @@ void forAllImagePoints(MinimalProblem& problem, const ChangeImagePoint& change) 
   for (solvers::PointMatch& match : problem.points) change(match.u, match.v);
 }
 
-TEST_P(Contract, exact_data_are_recovered) {
+TEST_P(Contract, ExactDataAreRecovered) {
   int lost = 0;
   std::vector<double> errors;
   for (std::uint64_t i = 0; i < kProblems; ++i) {
@@ -103,7 +103,7 @@ TEST_P(Contract, exact_data_are_recovered) {
   EXPECT_LT(errors[kProblems / 2], 1e-13);
 }
 
-TEST_P(Contract, solutions_satisfy_the_equations_and_are_different) {
+TEST_P(Contract, SolutionsSatisfyTheEquationsAndAreDifferent) {
   for (std::uint64_t i = 0; i < kProblems; ++i) {
     const MinimalProblem example = problem(i);
     const EquationCheck equations(example.rays, example.points, GetParam().exactCoordinates);
@@ -116,7 +116,7 @@ TEST_P(Contract, solutions_satisfy_the_equations_and_are_different) {
   }
 }
 
-TEST_P(Contract, order_of_correspondences_does_not_matter) {
+TEST_P(Contract, OrderOfCorrespondencesDoesNotMatter) {
   const auto shuffle = [](Random& random, auto& list, int count) {
     for (int k = count; k > 1; --k)
       std::swap(list[static_cast<std::size_t>(k - 1)], list[static_cast<std::size_t>(random.index(k))]);
@@ -131,7 +131,7 @@ TEST_P(Contract, order_of_correspondences_does_not_matter) {
   });
 }
 
-TEST_P(Contract, similarity_of_the_rigs_frame_moves_the_position) {
+TEST_P(Contract, SimilarityOfTheRigsFrameMovesThePosition) {
   for (const double scale : {1e-6, 0.3, 1e6}) {
     SCOPED_TRACE(scale);
     expectInvariance(702, true, [&](Random& random, const MinimalProblem& original) {
@@ -159,7 +159,7 @@ TEST_P(Contract, similarity_of_the_rigs_frame_moves_the_position) {
   }
 }
 
-TEST_P(Contract, scale_of_the_image_scales_the_focal_length) {
+TEST_P(Contract, ScaleOfTheImageScalesTheFocalLength) {
   for (const double scale : {1e-6, 1e-3, 7.0, 1e6}) {
     SCOPED_TRACE(scale);
     expectInvariance(703, true, [scale](Random&, const MinimalProblem&) {
@@ -177,7 +177,7 @@ TEST_P(Contract, scale_of_the_image_scales_the_focal_length) {
   }
 }
 
-TEST_P(Contract, rotation_about_the_optical_axis_rotates_the_query) {
+TEST_P(Contract, RotationAboutTheOpticalAxisRotatesTheQuery) {
   expectInvariance(704, GetParam().usesAllOfImage, [](Random& random, const MinimalProblem&) {
     const double angle = random.uniform(0, 2 * Random::kPi), c = std::cos(angle), s = std::sin(angle);
     Change change;
@@ -199,7 +199,7 @@ TEST_P(Contract, rotation_about_the_optical_axis_rotates_the_query) {
 }
 
 // To first order the error is proportional to the noise: what rounding adds is invisible beside a ten-millionth of a pixel.
-TEST_P(Contract, error_grows_in_proportion_to_the_noise) {
+TEST_P(Contract, ErrorGrowsInProportionToTheNoise) {
   for (const double sigma : {1e-7, 1e-5, 1e-3, 0.1, 1.0}) {
     SCOPED_TRACE(sigma);
     std::vector<double> errors;
@@ -220,7 +220,7 @@ TEST_P(Contract, error_grows_in_proportion_to_the_noise) {
 INSTANTIATE_TEST_SUITE_P(Solvers, Contract, testing::ValuesIn(solverCases()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST(ContractCases, contain_every_minimal_solver) {
+TEST(ContractCases, ContainEveryMinimalSolver) {
   std::set<solvers::SolveFunction> tested;
   for (const SolverCase& solver : solverCases()) tested.insert(solver.solve);
   for (const Solver id : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f}) {

@@ -35,7 +35,7 @@ Tally solveAll(const Situation& situation, const SolverCase& solver) {
 
 class Degenerate : public testing::TestWithParam<Situation> {};
 
-TEST_P(Degenerate, data_have_the_documented_outcome) {
+TEST_P(Degenerate, DataHaveTheDocumentedOutcome) {
   std::string outcomes;
   for (const char letter : GetParam().outcomes)
     if (letter != ' ') outcomes += letter;

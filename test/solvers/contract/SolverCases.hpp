@@ -40,20 +40,20 @@ inline std::ostream& operator<<(std::ostream& stream, const SolverCase& solver) 
 inline const std::vector<SolverCase>& solverCases() {
   using namespace solvers;
   static const std::vector<SolverCase> cases = {
-      {"p4pf", &p4pf, {}, 4, 6, 6, 3},
-      {"p35pf", &p35pf, {}, 4, 10, 7, 3, false, false, false},
-      {"h13f", &h13f, {1}, 3, 12, 6, 3},
-      {"h32f_111", &h32f, {1, 1, 1}, 2, 26, 4, 2},
-      {"h32f_21", &h32f, {2, 1}, 2, 26, 4, 2},
-      {"h32f_3", &h32f, {3}, 2, 26, 4, 2},
-      {"h51f_11111", &h51f, {1, 1, 1, 1, 1}, 1, 56, 2, 1, true},
-      {"h51f_2111", &h51f, {2, 1, 1, 1}, 1, 56, 2, 1, true},
-      {"h51f_221", &h51f, {2, 2, 1}, 1, 56, 2, 1, true},
-      {"h51f_311", &h51f, {3, 1, 1}, 1, 50, 2, 1, true},
-      {"h51f_32", &h51f, {3, 2}, 1, 50, 2, 1, true},
-      {"h51f_41", &h51f, {4, 1}, 1, 36, 2, 1, true},
-      {"h51f_5", &h51f, {5}, 1, 9, 2, 1},
-      {"sixpt_onefocal", &sixptOnefocal, {6}, 0, 9, 0, 0, false, true},
+      {"p4pf", &three_points::p4pf, {}, 4, 6, 6, 3},
+      {"p35pf", &three_points::p35pf, {}, 4, 10, 7, 3, false, false, false},
+      {"h13f", &three_points::h13f, {1}, 3, 12, 6, 3},
+      {"h32f_111", &h32f::solve, {1, 1, 1}, 2, 26, 4, 2},
+      {"h32f_21", &h32f::solve, {2, 1}, 2, 26, 4, 2},
+      {"h32f_3", &h32f::solve, {3}, 2, 26, 4, 2},
+      {"h51f_11111", &h51f::solve, {1, 1, 1, 1, 1}, 1, 56, 2, 1, true},
+      {"h51f_2111", &h51f::solve, {2, 1, 1, 1}, 1, 56, 2, 1, true},
+      {"h51f_221", &h51f::solve, {2, 2, 1}, 1, 56, 2, 1, true},
+      {"h51f_311", &h51f::solve, {3, 1, 1}, 1, 50, 2, 1, true},
+      {"h51f_32", &h51f::solve, {3, 2}, 1, 50, 2, 1, true},
+      {"h51f_41", &h51f::solve, {4, 1}, 1, 36, 2, 1, true},
+      {"h51f_5", &h51f::solve, {5}, 1, 9, 2, 1},
+      {"sixpt_onefocal", &one_centre::sixptOnefocal, {6}, 0, 9, 0, 0, false, true},
   };
   return cases;
 }

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace test {

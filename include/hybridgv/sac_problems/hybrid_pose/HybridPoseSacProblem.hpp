@@ -28,7 +28,7 @@ namespace hybrid_pose {
 ///     if (ransac.computeModel())  // ransac.model_coefficients_ is a FocalPose, ransac.inliers_ are flat indices
 ///       ransac.sac_model_->optimizeModelCoefficients(ransac.inliers_, ransac.model_coefficients_, refined);
 ///
-/// * **Thresholds** are in pixels of the query image, one for each type. The distance that OpenGV sees is the error divided by
+/// * **Thresholds** are in pixels of the query image, one for each kind. The distance that OpenGV sees is the error divided by
 ///   its threshold, so `threshold_` is always 1.0 (OpenGV's default). It is always finite. For the Sampson error, a rig camera
 ///   whose focal length the adapter does not know (getRigFocalLength) has the query's current one, but at least twice the largest
 ///   coordinate of the image points, as in sac::hybridRansac.
@@ -46,11 +46,11 @@ namespace hybrid_pose {
 ///
 /// What the loops themselves do and a problem cannot change:
 ///
-/// * They know one pooled inlier share, so that their number of iterations is right only if both types have similar shares. It
-///   is too small if the type of which the solver needs more has the smaller share: raise `probability_`.
+/// * They know one pooled inlier share, so that their number of iterations is right only if both kinds have similar shares. It
+///   is too small if the kind of which the solver needs more has the smaller share: raise `probability_`.
 /// * Ransac runs max_iterations_ + 1 iterations. Samples without a solution are not counted, but limited to
 ///   10 max_iterations_, which must stay below 2^31.
-/// * Lmeds minimises the median over both types together: more than half of all correspondences must be inliers.
+/// * Lmeds minimizes the median over both kinds together: more than half of all correspondences must be inliers.
 /// * A second call of computeModel on the same loop object that finds nothing leaves the first one's model there and returns
 ///   true.
 class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPose> {
@@ -85,7 +85,7 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
 
   /// Draws m 2D-2D and n 2D-3D correspondences of the list set by setIndices. A degenerate sample is drawn again, up to
   /// max_sample_checks_ times; the last one is returned in any case, and computeModelCoefficients then finds no model for it.
-  /// Empty, which ends the loop, if the list has too few of one type.
+  /// Empty, which ends the loop, if the list has too few of one kind.
   void getSamples(int& /*iterations*/, std::vector<int>& samples) override {
     const MultiIndices pool = core_.split(*indices_);
     for (int check = 0; check == 0 || check < max_sample_checks_; ++check) {

@@ -25,7 +25,7 @@ namespace hybridgv {
 ///
 ///     (u, v) = f0 * (bx / bz, by / bz),
 ///
-/// and the focal length that is found has the unit of f0: if f0 is in pixels, pixels; if f0 = 1 (bearing vectors of normalised
+/// and the focal length that is found has the unit of f0: if f0 is in pixels, pixels; if f0 = 1 (bearing vectors of normalized
 /// coordinates), it is the factor by which the nominal focal length was wrong, and the thresholds are in that unit too.
 ///
 /// The query is one pinhole camera in the origin of its viewpoint: getCamOffset2 and getCamRotation2, and the absolute adapter's

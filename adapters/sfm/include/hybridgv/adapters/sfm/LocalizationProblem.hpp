@@ -63,7 +63,7 @@ struct LocalizationProblem {
 HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
                                                             const LocalizationProblemOptions& options = {});
 
-/// The problem with wrong matches: of the correspondences of each type a share (rounded to the nearest count) is chosen at
+/// The problem with wrong matches: of the correspondences of each kind a share (rounded to the nearest count) is chosen at
 /// random, and the query image points of all chosen ones are permuted so that none keeps its own. A single one cannot be permuted
 /// and is left as it is. The same seed gives the same result on every platform.
 ///

@@ -1,0 +1,92 @@
+/// \file
+/// \brief What hybridRansac may do, and the reasons that it gives.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "hybridgv/export.hpp"
+#include "hybridgv/types.hpp"
+
+namespace hybridgv {
+namespace sac {
+
+/// A minimal solver that may be drawn, with the weight of its choice before anything is known about the data (> 0).
+struct SolverPrior {
+  Solver solver;     ///< which
+  double prior = 1;  ///< relative to the others; only the ratios matter
+};
+
+/// What makes a pose better than another.
+enum class Scoring {
+  Msac,         ///< sum over all correspondences of max(0, 1 - (error/threshold)^2)
+  InlierCount,  ///< number of correspondences with error below the threshold
+};
+
+/// How samples are drawn.
+enum class Sampling {
+  Uniform,         ///< every sample of a kind is equally likely
+  QualityOrdered,  ///< correspondences with larger weights first (PROSAC), where the adapter's weights differ; else Uniform
+};
+
+/// What hybridRansac may do. Every length is in pixels of the query image (that is, in the unit of the adapter's image points),
+/// nothing is squared.
+struct HYBRIDGV_EXPORT HybridRansacOptions {
+  double maxReprojectionErrorPx = 12;  ///< 2D-3D: largest reprojection error of an inlier
+  double maxEpipolarErrorPx = 6;       ///< 2D-2D: largest Sampson error of an inlier
+
+  /// Stop when the probability to have missed a sample of inliers only, over all solvers together, is below 1 minus this.
+  double successProbability = 0.9999;
+  /// Samples drawn at least (if maxIterations allows): noisy data have local optima that look good enough to stop at, and a few
+  /// more samples are cheap.
+  int minIterations = 48;
+  int maxIterations = 10000;                                           ///< samples drawn at most
+  double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
+
+  double minFocalLength = 0;                                        ///< [px] smaller ones are no solutions
+  double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] larger ones are no solutions
+
+  /// The solvers to choose from. One whose correspondences are absent is left out by itself.
+  std::vector<SolverPrior> solvers = {
+      {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
+  Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized
+  Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
+  bool localOptimization = true;  ///< optimize promising models over both kinds; the likeliest is kept, the noise being estimated
+  bool finalOptimization = true;  ///< optimize the result's likelihood to full precision
+  /// A pose to start from, scored before the first sample. It competes on its score alone, so a wrong one does no harm.
+  std::optional<FocalPose> initialPose;
+
+  /// Everything random is derived from it: equal seeds give bit-identical results, for any number of threads.
+  std::uint64_t seed = 0;
+  int threads = 1;  ///< hypotheses tried in parallel; 0 = one per processor core
+
+  /// \throws std::invalid_argument that names the option and its value
+  void check() const;
+};
+
+/// Why there is no result.
+enum class FailureReason {
+  None,                   ///< success
+  TooFewCorrespondences,  ///< no enabled solver has enough data
+  NoModel,                ///< no sample gave a pose with inliers
+  InliersMayBeChance,     ///< wrong poses of random data have as many inliers
+  UndeterminedPose,       ///< the inliers do not fix all seven parameters
+};
+
+/// What ended the search.
+enum class StopReason {
+  NotStarted,     ///< no sample was drawn
+  Confident,      ///< successProbability reached
+  MaxIterations,  ///< maxIterations reached
+  TimeBudget,     ///< timeBudgetSeconds reached
+};
+
+/// "none", "too few correspondences", ...
+HYBRIDGV_EXPORT const char* toString(FailureReason reason);
+/// "not started", "confident", ...
+HYBRIDGV_EXPORT const char* toString(StopReason reason);
+
+}  // namespace sac
+}  // namespace hybridgv

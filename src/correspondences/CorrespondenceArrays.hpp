@@ -1,0 +1,70 @@
+// The correspondences as the robust estimation holds them: copied once from the adapter, centred and scaled, one array per
+// quantity.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "correspondences/ArrayViews.hpp"
+#include "correspondences/Correspondence.hpp"
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+#include "hybridgv/types.hpp"
+
+namespace hybridgv {
+namespace correspondences {
+
+// The rig's frame, moved and scaled so that coordinates are of the order of 1: x' = (x - centre) / unit.
+struct Normalization {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double unit = 1;
+
+  Eigen::Vector3d apply(const Eigen::Vector3d& x) const { return (x - centre) / unit; }
+  FocalPose apply(FocalPose pose) const { return pose.position = apply(pose.position), pose; }
+  FocalPose undo(FocalPose pose) const { return pose.position = centre + unit * pose.position, pose; }
+};
+
+class CorrespondenceArrays {
+ public:
+  // Reads the correspondences indices2d2d and indices2d3d, in this order.
+  // Throws std::invalid_argument for data that are not finite.
+  CorrespondenceArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
+                       const std::vector<int>& indices2d3d);
+
+  // A rig camera of unknown focal length then has at least twice the largest coordinate of the query's image points (about the
+  // width of the image) as its own. Without this, the Sampson error of any data vanishes as the query's focal length goes to 0.
+  void boundUnknownFocalLengths();
+
+  const Normalization& normalization() const { return normalization_; }
+  // Element i is correspondence indices2d2d[i] (indices2d3d[i]), normalized.
+  const std::vector<RayMatch>& rays() const { return rays_; }
+  const std::vector<PointMatch>& points() const { return points_; }
+  // Where a ray is seen in its map image: coordinates for focal length 1 (in the tangent plane of the sphere, the origin, if
+  // there is no pinhole image), and that image's focal length, 0 if unknown.
+  struct MapImagePoint {
+    double x, y, focalLength;
+  };
+  const std::vector<MapImagePoint>& mapImagePoints() const { return mapImagePoints_; }
+  RayArrays rayArrays() const;
+  PointArrays pointArrays() const;
+
+ private:
+  void normalize();
+  void fillRayColumns(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d);
+  void fillPointColumns();
+
+  Normalization normalization_;
+  double leastFocalLength_ = 0;
+  std::vector<RayMatch> rays_;
+  std::vector<PointMatch> points_;
+  std::vector<MapImagePoint> mapImagePoints_;
+  std::vector<double> rayColumns_, pointColumns_;
+};
+
+// The next multiple of kPadding.
+std::size_t padded(std::size_t size);
+
+// 0, 1, .., count-1
+std::vector<int> allIndices(std::size_t count);
+
+}  // namespace correspondences
+}  // namespace hybridgv

@@ -1,0 +1,119 @@
+#include "robust/PoseScorer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "HybridScene.hpp"
+#include "robust/SampleCheck.hpp"
+#include "robust/WorkerPool.hpp"
+
+namespace hybridgv {
+namespace {
+
+using namespace robust;
+
+struct Data {
+  Data(test::Random& random, int rays, int points, double outliers)
+      : adapter(make(random, rays, points, outliers)),
+        arrays(adapter, correspondences::allIndices(scene.bearings.size()), correspondences::allIndices(scene.points.size())) {}
+  NoncentralHybridAdapter make(test::Random& random, int rays, int points, double outliers) {
+    test::SceneOptions options;
+    options.rays = rays, options.points = points, options.imageNoise = 2;
+    options.outlierShareRays = options.outlierSharePoints = outliers;
+    scene = test::makeHybridScene(random, options);
+    return scene.adapter();
+  }
+  FocalPose truth() const { return arrays.normalization().apply(scene.truth); }
+  test::HybridScene scene;
+  NoncentralHybridAdapter adapter;
+  correspondences::CorrespondenceArrays arrays;
+};
+
+TEST(PoseScorer, ScoreIsTheSumOverBothTypesWithTheirOwnThresholds) {
+  test::Random random(test::testSeed(), 60);
+  const Data data(random, 150, 333, 0.3);
+  const PoseScorer msac(data.arrays, 5, 11, sac::Scoring::Msac), inliers(data.arrays, 5, 11, sac::Scoring::InlierCount);
+  const FocalPose pose = data.truth();
+  double expected = 0;
+  int count = 0;
+  const auto add = [&](const std::vector<double>& squared, double threshold) {
+    for (const double e : squared)
+      if (e < threshold * threshold) expected += 1 - e / (threshold * threshold), ++count;
+  };
+  add(msac.squaredRayErrors(pose), 5);
+  add(msac.squaredPointErrors(pose), 11);
+  EXPECT_NEAR(msac.evaluate(pose).score, expected, 1e-9 * expected);
+  EXPECT_EQ(inliers.evaluate(pose).score, count);
+  EXPECT_EQ(msac.evaluate(pose).rays + msac.evaluate(pose).points, count);
+  std::vector<char> rays, points;
+  msac.inliers(pose, rays, points);
+  EXPECT_EQ(std::accumulate(rays.begin(), rays.end(), 0), msac.evaluate(pose).rays);
+  EXPECT_EQ(std::accumulate(points.begin(), points.end(), 0), msac.evaluate(pose).points);
+}
+
+TEST(PoseScorer, APoseThatCannotWinIsGivenUpAndOneThatCanIsNot) {
+  test::Random random(test::testSeed(), 61);
+  const Data data(random, 300, 300, 0.3);
+  const PoseScorer scorer(data.arrays, 6, 12, sac::Scoring::Msac);
+  const double score = scorer.evaluate(data.truth()).score;
+  Expectation expectation;
+  expectation.score = 0.99 * score;
+  EXPECT_TRUE(scorer.evaluate(data.truth(), expectation).complete);
+  expectation.score = 1.01 * score;
+  EXPECT_FALSE(scorer.evaluate(data.truth(), expectation).complete);
+}
+
+TEST(PoseScorer, SequentialTestKeepsGoodPosesAndGivesUpChanceOnesEarly) {
+  test::Random random(test::testSeed(), 62);
+  int goodKept = 0, badKept = 0;
+  const int count = 200;
+  for (int i = 0; i < count; ++i) {
+    const Data data(random, 300, 300, 0.6);
+    const PoseScorer scorer(data.arrays, 6, 12, sac::Scoring::Msac);
+    Expectation expectation;
+    expectation.goodShare[0] = expectation.goodShare[1] = 0.3;
+    expectation.chanceShare[0] = expectation.chanceShare[1] = 0.03;
+    goodKept += scorer.evaluate(data.truth(), expectation).complete;
+    badKept += scorer.evaluate(test::perturbed(random, data.truth(), 2, 2, 1), expectation).complete;
+  }
+  EXPECT_GE(goodKept, count * (1 - 2 * kFalseRejection));
+  EXPECT_LE(badKept, 0.05 * count);
+}
+
+TEST(WorkerPool, EveryIndexIsTakenOnceWhateverTheNumberOfThreads) {
+  for (const int threads : {0, 1, 2, 5}) {
+    WorkerPool pool(threads);
+    for (const int count : {0, 1, 3, 1000}) {
+      std::vector<std::atomic<int>> taken(static_cast<std::size_t>(count));
+      pool.forEach(count, [&](int i, std::size_t worker) {
+        EXPECT_LT(worker, pool.size());
+        ++taken[static_cast<std::size_t>(i)];
+      });
+      for (const auto& times : taken) EXPECT_EQ(times, 1);
+    }
+  }
+}
+
+TEST(SampleCheck, RecognisesDegenerateSamples) {
+  test::Random random(test::testSeed(), 63);
+  for (int i = 0; i < 50; ++i) {
+    const test::MinimalProblem good = test::makeMinimalProblem(random, {2, 1}, 4);
+    const auto check = [](const test::MinimalProblem& p) { return isDegenerate(p.rays.data(), 3, p.points.data(), 4); };
+    EXPECT_FALSE(check(good));
+    test::MinimalProblem collinear = good, coincident = good, through = good, twice = good;
+    collinear.points[2].point = 0.3 * good.points[0].point + 0.7 * good.points[1].point;
+    EXPECT_TRUE(check(collinear));
+    coincident.points[3].u = good.points[1].u, coincident.points[3].v = good.points[1].v;
+    EXPECT_TRUE(check(coincident));
+    through.rays[0].direction = (good.points[2].point - good.rays[0].centre).normalized();
+    EXPECT_TRUE(check(through));
+    twice.rays[1].direction = good.rays[0].direction;
+    EXPECT_TRUE(check(twice));
+  }
+}
+
+}  // namespace
+}  // namespace hybridgv
