@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "Random.hpp"
-#include "solvers/h51f/PathSolver.hpp"
+#include "solvers/h51f/PathProblem.hpp"
 #include "solvers/h51f/Reduction.hpp"
 
 namespace hybridgv {

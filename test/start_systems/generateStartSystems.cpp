@@ -71,7 +71,7 @@ std::vector<double> meanSteps(const KnownSystem& system, const std::vector<Sampl
     Parameters target = parametersIn(frame, system.sharing, sample.rays, sample.point);
     scaleRaysLike(system.parameters, &target);
     int attempts[kMaxPaths];
-    PathSolver(start, target).countSteps(attempts);
+    PathSolver<H51fPathProblem>({start, target}).countSteps(attempts);
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] += attempts[i] / static_cast<double>(samples.size());
   }
   return steps;

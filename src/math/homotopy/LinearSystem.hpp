@@ -13,7 +13,8 @@ template <int N, int Columns, class V>
 HYBRIDGV_INLINE void swapRows(Complex<V> (&a)[N][Columns], int k, int row, Mask<V> mask) {
   for (int c = k; c < Columns; ++c) {
     const Complex<V> upper = a[k][c], lower = a[row][c];
-    a[k][c] = select(mask, lower, upper), a[row][c] = select(mask, upper, lower);
+    a[k][c] = select(mask, lower, upper);
+    a[row][c] = select(mask, upper, lower);
   }
 }
 

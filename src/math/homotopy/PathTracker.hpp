@@ -50,7 +50,10 @@ HYBRIDGV_INLINE void loadLanes(const Point<Real<V>, N>* points, const int* indic
   alignas(V) Real<V> re[N][LaneTraits<V>::kWidth], im[N][LaneTraits<V>::kWidth];
   for (int lane = 0; lane < LaneTraits<V>::kWidth; ++lane) {
     const Point<Real<V>, N>& point = points[indices[lane < count ? lane : 0]];
-    for (int k = 0; k < N; ++k) re[k][lane] = point.re[k], im[k][lane] = point.im[k];
+    for (int k = 0; k < N; ++k) {
+      re[k][lane] = point.re[k];
+      im[k][lane] = point.im[k];
+    }
   }
   for (int k = 0; k < N; ++k) {
     __builtin_memcpy(&x[k].re, re[k], sizeof(V));
@@ -59,7 +62,10 @@ HYBRIDGV_INLINE void loadLanes(const Point<Real<V>, N>* points, const int* indic
 }
 template <class V, int N>
 HYBRIDGV_INLINE void storeLane(const Complex<V> (&x)[N], int lane, Point<Real<V>, N>& point) {
-  for (int k = 0; k < N; ++k) point.re[k] = x[k].re[lane], point.im[k] = x[k].im[lane];
+  for (int k = 0; k < N; ++k) {
+    point.re[k] = x[k].re[lane];
+    point.im[k] = x[k].im[lane];
+  }
 }
 
 // Applies the step to x; returns the squared size of the step's largest component, relative as described above. NaN is kept.
@@ -153,16 +159,24 @@ class PathTracker {
     path_[lane] = paths_[more ? next_ : 0];
     next_ += more;
     active_ = more ? active_ | 1u << lane : active_ & ~(1u << lane);
-    const Point<Scalar, N>&start = starts_[path_[lane]], &tangent = tangents_[path_[lane]];
+    const Point<Scalar, N>& start = starts_[path_[lane]];
+    const Point<Scalar, N>& tangent = tangents_[path_[lane]];
     const Scalar step = static_cast<Scalar>(options_.firstStep);
     for (int k = 0; k < N; ++k) {  // the older point is made up: it lies on the start's tangent
-      x1_[k].re[lane] = start.re[k], x1_[k].im[lane] = start.im[k];
-      tangent1_[k].re[lane] = tangent0_[k].re[lane] = tangent.re[k];
-      tangent1_[k].im[lane] = tangent0_[k].im[lane] = tangent.im[k];
+      x1_[k].re[lane] = start.re[k];
+      x1_[k].im[lane] = start.im[k];
+      tangent1_[k].re[lane] = tangent.re[k];
+      tangent1_[k].im[lane] = tangent.im[k];
+      tangent0_[k].re[lane] = tangent.re[k];
+      tangent0_[k].im[lane] = tangent.im[k];
       x0_[k].re[lane] = start.re[k] - step * tangent.re[k];
       x0_[k].im[lane] = start.im[k] - step * tangent.im[k];
     }
-    t_[lane] = 0, step_[lane] = step, past_[lane] = step, curved_[lane] = 0, attempts_[lane] = 0;
+    t_[lane] = 0;
+    step_[lane] = step;
+    past_[lane] = step;
+    curved_[lane] = 0;
+    attempts_[lane] = 0;
   }
 
   void attempt() {
@@ -224,16 +238,20 @@ class PathTracker {
   static Scalar square(double x) { return static_cast<Scalar>(x * x); }
 
   const Homotopy& homotopy_;
-  const Point<Scalar, N>*starts_, *tangents_;
+  const Point<Scalar, N>* starts_;
+  const Point<Scalar, N>* tangents_;
   const int* paths_;
-  int count_, next_ = 0;
+  int count_;
+  int next_ = 0;  // of paths_
   TrackingOptions options_;
   PathEnd<Scalar, N>* ends_;
 
-  Complex<V> x0_[N], tangent0_[N], x1_[N], tangent1_[N];  // the last two accepted points
-  V t_ = V{}, step_ = V{};                                // where the newer one is; the step to try
-  V past_ = V{} + 1;                                      // distance between the two
-  Mask<V> curved_ = Mask<V>{};                            // whether the older one is real
+  // The last two accepted points.
+  Complex<V> x0_[N] = {}, tangent0_[N] = {}, x1_[N] = {}, tangent1_[N] = {};
+  V t_ = V{};                   // where the newer one is
+  V step_ = V{};                // the step to try
+  V past_ = V{} + 1;            // distance between the two
+  Mask<V> curved_ = Mask<V>{};  // whether the older one is real
   V attempts_ = V{};
   int path_[W];
   unsigned active_ = 0;

@@ -10,8 +10,9 @@
 //
 //   2 s(m) + alpha pib u(m) + beta pi v(m) + i alpha d (pib0-pib) u(q) - i beta d (pi0-pi) v(q)
 //          + i alpha beta d (pib pi0 - pi pib0) s(q) = 0,
-//   u(w) = z0.w = w+ - 2 x w3 - x^2 w-,  v(w) = z0b.w = w- - 2 y w3 - y^2 w+,  s(w) = n0.w = w3 + x w- + y w+ - x y w3,  w+- = w1
-//   +- i w2.
+//   u(w) = z0.w  = w+ - 2 x w3 - x^2 w-,
+//   v(w) = z0b.w = w- - 2 y w3 - y^2 w+,
+//   s(w) = n0.w  = w3 + x w- + y w+ - x y w3,   w+ = w1 + i w2,   w- = w1 - i w2.
 //
 // Five rays, five unknowns x, y, alpha, beta, d. All data are interpolated linearly in t, from complex start to real target.
 #pragma once
@@ -22,13 +23,14 @@
 namespace hybridgv {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-namespace h51f = solvers::h51f;
-
 // Values and derivatives of the coefficients at t.
 template <class V, int Degree>
 HYBRIDGV_INLINE Complex<V> valueAt(const math::Polynomial<Real<V>, Degree>& p, V t) {
   V re = t * p.re[Degree] + p.re[Degree - 1], im = t * p.im[Degree] + p.im[Degree - 1];
-  for (int k = Degree - 2; k >= 0; --k) re = re * t + p.re[k], im = im * t + p.im[k];
+  for (int k = Degree - 2; k >= 0; --k) {
+    re = re * t + p.re[k];
+    im = im * t + p.im[k];
+  }
   return {re, im};
 }
 template <class V>
@@ -42,11 +44,13 @@ HYBRIDGV_INLINE Complex<V> derivativeAt(const math::Polynomial<Real<V>, 1>& p, V
 }
 
 struct H51fSystem {
-  static constexpr int kUnknowns = h51f::kUnknowns, kAbsolute = 2;
+  static constexpr int kUnknowns = solvers::h51f::kUnknowns, kAbsolute = 2, kRays = solvers::h51f::kRays;
   enum Unknown { X, Y, Alpha, Beta, D, F, Ft };
 
   template <class Scalar>
-  using Homotopy = h51f::Homotopy<Scalar>;
+  using Homotopy = solvers::h51f::Homotopy<Scalar>;
+  template <class Scalar>
+  using VectorHomotopy = solvers::h51f::VectorHomotopy<Scalar>;
 
   // The data of the equations at some t.
   template <class V>
@@ -60,22 +64,25 @@ struct H51fSystem {
   };
   template <class V>
   struct Data {
-    Ray<V> ray[h51f::kRays];
+    Ray<V> ray[kRays];
   };
 
   template <class V>
-  static HYBRIDGV_INLINE Vector<V> vectorAt(const h51f::VectorHomotopy<Real<V>>& w, V t) {
+  static HYBRIDGV_INLINE Vector<V> vectorAt(const VectorHomotopy<Real<V>>& w, V t) {
     return {valueAt(w.plus, t), valueAt(w.minus, t), valueAt(w.third, t)};
   }
   template <class V>
   static HYBRIDGV_INLINE void dataAt(const Homotopy<Real<V>>& homotopy, V t, Data<V>& data) {
     const Complex<V> pointImage = valueAt(homotopy.pointImage, t), pointImageBar = valueAt(homotopy.pointImageBar, t);
-    for (int j = 0; j < h51f::kRays; ++j) {
-      const h51f::RayHomotopy<Real<V>>& from = homotopy.ray[j];
+    for (int j = 0; j < kRays; ++j) {
+      const solvers::h51f::RayHomotopy<Real<V>>& from = homotopy.ray[j];
       Ray<V>& to = data.ray[j];
-      to.direction = vectorAt(from.direction, t), to.moment = vectorAt(from.moment, t);
-      to.image = valueAt(from.image, t), to.imageBar = valueAt(from.imageBar, t);
-      to.dImage = to.image - pointImage, to.dImageBar = pointImageBar - to.imageBar;
+      to.direction = vectorAt(from.direction, t);
+      to.moment = vectorAt(from.moment, t);
+      to.image = valueAt(from.image, t);
+      to.imageBar = valueAt(from.imageBar, t);
+      to.dImage = to.image - pointImage;
+      to.dImageBar = pointImageBar - to.imageBar;
       to.cross = valueAt(from.cross, t);
     }
   }
@@ -88,7 +95,7 @@ struct H51fSystem {
     const V half = broadcast<V>(Real<V>(0.5));
     const Complex<V> x = z[X], y = z[Y], alpha = half * z[Alpha], beta = half * z[Beta];
     const Complex<V> iAlphaD = timesI(alpha * z[D]), iBetaD = timesI(beta * z[D]), iAlphaBetaD = iAlphaD * z[Beta];
-    for (int j = 0; j < h51f::kRays; ++j) {
+    for (int j = 0; j < kRays; ++j) {
       Complex<V>(&row)[kUnknowns + 1 + derivative] = rows[j];
       const Ray<V>& ray = data.ray[j];
       Complex<V> dx, dy, value, dt;
@@ -140,7 +147,7 @@ struct H51fSystem {
 
   // s(w') + ku u(w') + kv v(w') for the slope w' of w
   template <class V>
-  static HYBRIDGV_INLINE Complex<V> addLinear(const h51f::VectorHomotopy<Real<V>>& w, const Complex<V>& x, const Complex<V>& y,
+  static HYBRIDGV_INLINE Complex<V> addLinear(const VectorHomotopy<Real<V>>& w, const Complex<V>& x, const Complex<V>& y,
                                               const Complex<V>& ku, const Complex<V>& kv) {
     const Vector<V> slopes = slope<V>(w);
     const Complex<V> a = addProduct(slopes.third, x, slopes.minus), c = addProduct(slopes.third, y, slopes.plus);
@@ -154,7 +161,7 @@ struct H51fSystem {
     return {broadcast<V>(p.re[1]), broadcast<V>(p.im[1])};
   }
   template <class V>
-  static HYBRIDGV_INLINE Vector<V> slope(const h51f::VectorHomotopy<Real<V>>& w) {
+  static HYBRIDGV_INLINE Vector<V> slope(const VectorHomotopy<Real<V>>& w) {
     return {slope<V>(w.plus), slope<V>(w.minus), slope<V>(w.third)};
   }
 };

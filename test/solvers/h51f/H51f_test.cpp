@@ -176,20 +176,20 @@ const std::vector<DegenerateCase>& degenerateCases() {
          problem.points[0].u = problem.points[0].v = 0;
        },
        kFewSteps},
-      {"the query at the centre of a rig camera", moveQueryToRigCentre, solvers::h51f::kMaxSteps},
+      {"the query at the centre of a rig camera", moveQueryToRigCentre, EndPoints::kMaxSteps},
       {"the point at the centre of a rig camera",
-       [](MinimalProblem& problem, Random&) { problem.points[0].point = problem.rays[0].centre; }, solvers::h51f::kMaxSteps},
+       [](MinimalProblem& problem, Random&) { problem.points[0].point = problem.rays[0].centre; }, EndPoints::kMaxSteps},
       {"rays without direction",
        [](MinimalProblem& problem, Random&) {
          for (solvers::RayMatch& ray : problem.rays) ray.direction.setZero();
        },
-       solvers::h51f::kMaxSteps},
+       EndPoints::kMaxSteps},
       {"noise on many scales",
        [](MinimalProblem& problem, Random& random) {
          for (solvers::RayMatch& ray : problem.rays)
            ray.u = std::exp(random.uniform(-20, 20)), ray.centre = std::exp(random.uniform(-20, 20)) * random.direction();
        },
-       solvers::h51f::kMaxSteps},
+       EndPoints::kMaxSteps},
   };
   return cases;
 }
@@ -210,6 +210,21 @@ TEST_P(H51fLevels, StopsOnDegenerateData) {
       EXPECT_LE(ends.steps, degenerate.mostSteps) << degenerate.name;
       EXPECT_LE(ends.accepted, ends.paths) << degenerate.name;
     }
+}
+
+// A query at the centre that three or four rays share satisfies their equations whatever they are, and then is a multiple solution
+// that is known to few digits only.
+TEST_P(H51fLevels, ReturnsHardlyAnyImproperPose) {
+  constexpr std::uint64_t kCount = 20;
+  std::uint64_t improper = 0;
+  for (const RaysPerCamera& pattern : {RaysPerCamera{3, 1, 1}, RaysPerCamera{3, 2}, RaysPerCamera{4, 1}})
+    for (std::uint64_t i = 0; i < kCount; ++i) {
+      Random random(testSeed() + 90, i);
+      MinimalProblem problem = makeMinimalProblem(random, pattern, 1);
+      moveQueryToRigCentre(problem, random);
+      for (const FocalPose& pose : solve(problem, GetParam())) improper += (pose.position - problem.rays[0].centre).norm() < 1e-4;
+    }
+  EXPECT_LE(improper, 3 * kCount / 10);
 }
 
 // The paths that an image point at the principal point sends to infinity do not cost much.

@@ -1,0 +1,93 @@
+// H51f for the path solver (math/homotopy/PathSolver.hpp). Compiled once per instruction set, see math/simd/Lanes.hpp.
+#pragma once
+
+#include "math/homotopy/PathSolver.hpp"
+#include "solvers/h51f/Problem.hpp"
+#include "solvers/h51f/System.hpp"
+
+namespace hybridgv {
+namespace HYBRIDGV_INSTRUCTION_SET {
+
+inline solvers::h51f::VectorHomotopy<float> narrowed(const solvers::h51f::VectorHomotopy<double>& vector) {
+  return {narrowed(vector.plus), narrowed(vector.minus), narrowed(vector.third)};
+}
+
+// The way from a start system to the target. Refers to both.
+class H51fPathProblem {
+ public:
+  using System = H51fSystem;
+  using Solution = Point<double, System::kUnknowns>;
+  static constexpr int kMaxPaths = solvers::h51f::kMaxPaths;
+
+  H51fPathProblem(const solvers::h51f::StartSystem& start, const solvers::h51f::Parameters& target)
+      : start_(start),
+        target_(target),
+        pointImage_(scalar(target.pointImage)),
+        pointImageBar_(scalar(target.pointImageBar)),
+        mayMeetSharedCentre_(start.sharing != solvers::h51f::Sharing::AtMostTwo) {}
+
+  int paths() const { return start_.paths; }
+  const Point<float, System::kUnknowns>* starts() const { return start_.solutions; }
+  System::Homotopy<double> homotopy() const { return solvers::h51f::straightHomotopy(start_.parameters, target_); }
+
+  static System::Homotopy<float> singlePrecision(const System::Homotopy<double>& from) {
+    System::Homotopy<float> to;
+    to.pointImage = narrowed(from.pointImage);
+    to.pointImageBar = narrowed(from.pointImageBar);
+    for (int j = 0; j < System::kRays; ++j) {
+      to.ray[j].direction = narrowed(from.ray[j].direction);
+      to.ray[j].moment = narrowed(from.ray[j].moment);
+      to.ray[j].image = narrowed(from.ray[j].image);
+      to.ray[j].imageBar = narrowed(from.ray[j].imageBar);
+      to.ray[j].cross = narrowed(from.ray[j].cross);
+    }
+    return to;
+  }
+
+  // An image point at the principal point moves solutions to infinity.
+  bool hasInfiniteSolutions() const {
+    bool has = norm(pointImage_) < kCentral;
+    for (const solvers::h51f::ComplexNumber& image : target_.image) has = has || norm(scalar(image)) < kCentral;
+    return has;
+  }
+
+  // The camera's: y = conj x, beta = conj alpha, real d.
+  bool isReal(const Solution& solution, double tolerance) const {
+    const Scalar x = component(solution, System::X), y = component(solution, System::Y);
+    const Scalar alpha = component(solution, System::Alpha), beta = component(solution, System::Beta);
+    const Scalar d = component(solution, System::D);
+    return norm(y - conjugate(x)) < tolerance * (1 + norm(x)) && norm(beta - conjugate(alpha)) < tolerance * norm(alpha) &&
+           __builtin_fabs(d.im) < tolerance * norm(d);
+  }
+
+  // Where three or more rays share a centre c = (0, 0, kSharedCentre), a query at c satisfies their equations: n.c + d = 0, z.c +
+  // d pi0 = 0 and its conjugate.
+  bool isImproper(const Solution& solution, double tolerance) const {
+    if (!mayMeetSharedCentre_) return false;
+    const Scalar x = component(solution, System::X), y = component(solution, System::Y), xy = x * y, one{1, 0};
+    const Scalar alpha = component(solution, System::Alpha), beta = component(solution, System::Beta);
+    const Scalar d = component(solution, System::D), scale = reciprocal(one + xy);
+    const double c = solvers::h51f::kSharedCentre;
+    return norm(c * ((one - xy) * scale) + d) < tolerance &&
+           norm(pointImage_ * d - 2 * c * (x * scale * reciprocal(beta))) < tolerance &&
+           norm(pointImageBar_ * d - 2 * c * (y * scale * reciprocal(alpha))) < tolerance;
+  }
+
+  // With the 3D point in front of the query.
+  bool isUseful(const Solution& solution) const { return solution.re[System::D] > 0; }
+
+ private:
+  using Scalar = Complex<double>;
+  static constexpr double kCentral = 1e-7;  // distance from the principal point; 1/4 is the mean
+
+  static Scalar scalar(const solvers::h51f::ComplexNumber& a) { return {a.re, a.im}; }
+  static double norm(const Scalar& a) { return __builtin_sqrt(squaredNorm(a)); }
+
+  const solvers::h51f::StartSystem& start_;
+  const solvers::h51f::Parameters& target_;
+  const Scalar pointImage_, pointImageBar_;
+  const bool mayMeetSharedCentre_;
+};
+
+}  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace hybridgv
