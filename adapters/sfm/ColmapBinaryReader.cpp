@@ -1,6 +1,5 @@
 #include "ByteScanner.hpp"
-#include "CameraChecks.hpp"
-#include "ColmapModels.hpp"
+#include "CameraModels.hpp"
 #include "FileContents.hpp"
 #include "ModelLinks.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
@@ -32,7 +31,9 @@ void readCameras(const std::string& path, SparseModel& model, IdIndex& cameraInd
     Camera camera;
     camera.id = in.u32("the camera's id");
     check(in, cameraIndex.add(camera.id));
-    check(in, colmapModelFromNumber(static_cast<std::int32_t>(in.u32("the camera's model")), camera.model));
+    const auto number = static_cast<std::int32_t>(in.u32("the camera's model"));
+    camera.model = colmapModelFromNumber(number);
+    if (camera.model == CameraModel::Unknown) in.fail("the camera model number " + std::to_string(number) + " is not known");
     camera.width = in.u64("the camera's width");
     camera.height = in.u64("the camera's height");
     for (std::size_t k = 0; k < parameterCount(camera.model); ++k)

@@ -1,7 +1,7 @@
-#include "CameraChecks.hpp"
-#include "ColmapModels.hpp"
+#include "CameraModels.hpp"
 #include "FileContents.hpp"
 #include "ModelLinks.hpp"
+#include "Printable.hpp"
 #include "TextScanner.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 
@@ -25,7 +25,9 @@ void readCameras(const std::string& path, SparseModel& model, IdIndex& cameraInd
     Camera camera;
     camera.id = in.integer<std::uint32_t>("the camera's id");
     check(in, cameraIndex.add(camera.id));
-    check(in, colmapModelFromName(in.word("the camera's model"), camera.model));
+    const std::string_view name = in.word("the camera's model");
+    camera.model = colmapModelFromName(name);
+    if (camera.model == CameraModel::Unknown) in.fail("the camera model '" + printable(name) + "' is not known");
     camera.width = in.integer<std::uint64_t>("the camera's width");
     camera.height = in.integer<std::uint64_t>("the camera's height");
     for (std::size_t i = 0; i < parameterCount(camera.model); ++i)

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "ColmapModels.hpp"
+#include "CameraModels.hpp"
 #include "FileContents.hpp"
 #include "ModelChecks.hpp"
 #include "NumberWriter.hpp"

@@ -1,9 +1,11 @@
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
+#include "CameraModels.hpp"
 #include "CheckArguments.hpp"
 #include "Triangulation.hpp"
 
@@ -40,9 +42,43 @@ void checkPose(const SparseModel& model, std::size_t image) {
     throwInvalid(element("images", image), "the pose is not finite");
 }
 
-std::optional<Eigen::Vector3d> undistorted(const SparseModel& model, std::size_t image, const Observation& o) {
+void checkObservation(std::size_t image, const Observation& o) {
   if (!std::isfinite(o.x) || !std::isfinite(o.y)) throwInvalid(element("images", image), "an observation is not finite");
-  return undistort(cameraOf(model, image), o.x, o.y);
+}
+
+// The query's image point. A plane magnifies the pixels of a fisheye camera by 1/cos^2 of the angle to the axis, and their noise
+// with them.
+std::optional<Eigen::Vector3d> queryImagePoint(const SparseModel& model, std::size_t image, const Observation& o) {
+  constexpr double kSmallestCosine = 0.5;
+  checkObservation(image, o);
+  const Camera& camera = cameraOf(model, image);
+  if (mapsAPlane(camera.model)) return undistort(camera, o.x, o.y);
+  const std::optional<Eigen::Vector3d> ray = bearingVector(camera, o.x, o.y);
+  return ray && ray->z() >= kSmallestCosine ? undistort(camera, o.x, o.y) : std::nullopt;
+}
+
+// What a map image sees: its image point, or, if its camera is no distorted pinhole, the centre of the image of a pinhole camera
+// that is turned towards the ray. Distances in that image are pixels of the map image on its axis.
+struct MapRay {
+  View view;
+  Eigen::Vector3d bearing;  // in the map image's frame
+};
+
+std::optional<MapRay> mapRay(const SparseModel& model, std::size_t imageIndex, const Observation& o) {
+  checkObservation(imageIndex, o);
+  const Image& image = model.images[imageIndex];
+  const Camera& camera = cameraOf(model, imageIndex);
+  const double f = focalLength(camera);
+  if (mapsAPlane(camera.model)) {
+    const std::optional<Eigen::Vector3d> point = undistort(camera, o.x, o.y);
+    if (!point) return std::nullopt;
+    const View view{image.rotation, image.position, f, (*point)[0], (*point)[1]};
+    return MapRay{view, view.direction()};
+  }
+  const std::optional<Eigen::Vector3d> ray = bearingVector(camera, o.x, o.y);
+  if (!ray) return std::nullopt;
+  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), *ray).toRotationMatrix();
+  return MapRay{{image.rotation * turn, image.position, f, 0, 0}, *ray};
 }
 
 void checkOptions(const LocalizationProblemOptions& options) {
@@ -64,6 +100,7 @@ bool isFirstOfTrack(const Point& point, std::size_t image, std::size_t observati
 // What the images other than the query see of the point: one view per image, in the order of the track.
 struct MapViews {
   std::vector<View> views;
+  std::vector<Eigen::Vector3d> bearings;
   std::vector<std::size_t> images;
 };
 
@@ -76,9 +113,9 @@ MapViews viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t q
     const Image& image = model.images[e.image];
     if (!done.insert(e.image).second || !image.registered) continue;
     checkPose(model, e.image);
-    if (const std::optional<Eigen::Vector3d> point = undistorted(model, e.image, image.observations[e.observation])) {
-      const double f = focalLength(cameraOf(model, e.image));
-      result.views.push_back({image.rotation, image.position, f, (*point)[0], (*point)[1]});
+    if (const std::optional<MapRay> ray = mapRay(model, e.image, image.observations[e.observation])) {
+      result.views.push_back(ray->view);
+      result.bearings.push_back(ray->bearing);
       result.images.push_back(e.image);
     }
   }
@@ -93,7 +130,7 @@ Matches findMatches(const SparseModel& model, std::size_t query, const Localizat
     const Observation& o = observations[i];
     if (o.point == Observation::kNoPoint) continue;
     if (o.point >= model.points.size()) throwInvalid(element("images", query), "there is no point " + std::to_string(o.point));
-    const std::optional<Eigen::Vector3d> imagePoint = undistorted(model, query, o);
+    const std::optional<Eigen::Vector3d> imagePoint = queryImagePoint(model, query, o);
     if (!imagePoint || !isFirstOfTrack(model.points[o.point], query, i)) continue;
     const MapViews map = viewsOf(model, o.point, query);
     if (map.views.empty()) continue;
@@ -104,7 +141,7 @@ Matches findMatches(const SparseModel& model, std::size_t query, const Localizat
         continue;
       }
     }
-    matches.rays.push_back({*imagePoint, map.views[0].direction(), map.images[0], o.point});
+    matches.rays.push_back({*imagePoint, map.bearings[0], map.images[0], o.point});
   }
   return matches;
 }
@@ -151,6 +188,9 @@ LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_
     throwInvalid("imageIndex", std::to_string(imageIndex) + " is outside the " + std::to_string(model.images.size()) + " images");
   const Image& query = model.images[imageIndex];
   if (!query.registered) throwInvalid("imageIndex", "image " + std::to_string(imageIndex) + " (" + query.name + ") has no pose");
+  if (!hasImagePlane(cameraOf(model, imageIndex).model))
+    throwInvalid("imageIndex", "image " + std::to_string(imageIndex) + " (" + query.name + ") has the camera model " +
+                                   toString(cameraOf(model, imageIndex).model) + " without an image plane");
   checkPose(model, imageIndex);
   LocalizationProblem problem = toProblem(model, findMatches(model, imageIndex, options));
   problem.imageName = query.name;

@@ -12,14 +12,25 @@ namespace {
 using sfm::CameraModel;
 using sfm::SparseModel;
 
-const CameraModel kModels[] = {CameraModel::SimplePinhole, CameraModel::Pinhole, CameraModel::SimpleRadial,
-                               CameraModel::Radial,        CameraModel::OpenCV,  CameraModel::NvmRadial};
+std::vector<CameraModel> allModels() {
+  std::vector<CameraModel> models = colmapModels();
+  models.push_back(CameraModel::NvmRadial);
+  return models;
+}
 
 void expectCameraRefused(const std::string& wrong, const sfm::Camera& camera) {
   expectRefused(
       wrong, [&] { sfm::focalLength(camera); }, "camera");
   expectRefused(
       wrong, [&] { sfm::undistort(camera, 1, 2); }, "camera");
+  expectRefused(
+      wrong, [&] { sfm::bearingVector(camera, 1, 2); }, "camera");
+  expectRefused(
+      wrong,
+      [&] {
+        sfm::project(camera, {1, 2, 1});
+      },
+      "camera");
   expectRefused(
       wrong,
       [&] {
@@ -29,7 +40,7 @@ void expectCameraRefused(const std::string& wrong, const sfm::Camera& camera) {
 }
 
 TEST(Misuse, WrongCamerasAreRefused) {
-  for (const CameraModel model : kModels) {
+  for (const CameraModel model : allModels()) {
     const sfm::Camera good = makeCamera(model);
     const std::string name = sfm::toString(model);
     for (const std::size_t count : {std::size_t{0}, good.parameters.size() - 1, good.parameters.size() + 1}) {
@@ -50,6 +61,15 @@ TEST(Misuse, WrongCamerasAreRefused) {
     }
     for (const double value : notFinite()) {
       expectRefused(
+          name, [&] { sfm::bearingVector(good, value, 0); }, "(x, y)");
+      expectRefused(
+          name,
+          [&] {
+            sfm::project(good, {1, value, 1});
+          },
+          "point");
+      if (!sfm::hasImagePlane(model)) continue;
+      expectRefused(
           name, [&] { sfm::undistort(good, value, 0); }, "(x, y)");
       expectRefused(
           name, [&] { sfm::undistort(good, 0, value); }, "(x, y)");
@@ -65,9 +85,9 @@ TEST(Misuse, WrongCamerasAreRefused) {
         [&] {
           sfm::distort(good, {1, 2, 0});
         },
-        "imagePoint");
+        sfm::hasImagePlane(model) ? "imagePoint" : "camera");
   }
-  for (const int value : {-1, 6, 1000}) {
+  for (const int value : {-1, 18, 999, 1002}) {
     sfm::Camera camera = makeCamera(CameraModel::Radial);
     camera.model = static_cast<CameraModel>(value);
     expectCameraRefused("model " + std::to_string(value), camera);

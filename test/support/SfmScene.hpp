@@ -31,11 +31,64 @@ inline sfm::Camera makeCamera(sfm::CameraModel model, std::uint32_t id = 1) {
     case sfm::CameraModel::OpenCV:
       camera.parameters = {760, 770, 505, 395, -0.15, 0.03, 0.0015, -0.001};
       break;
+    case sfm::CameraModel::OpenCVFisheye:
+      camera.parameters = {420, 425, 503, 398, 0.03, -0.008, 0.002, -0.0004};
+      break;
+    case sfm::CameraModel::FullOpenCV:
+      camera.parameters = {700, 705, 502, 402, -0.21, 0.06, 0.0004, -0.0003, -0.01, 0.03, -0.012, 0.002};
+      break;
+    case sfm::CameraModel::Fov:
+      camera.parameters = {600, 610, 505, 395, 0.9};
+      break;
+    case sfm::CameraModel::SimpleRadialFisheye:
+      camera.parameters = {430, 500, 400, -0.02};
+      break;
+    case sfm::CameraModel::RadialFisheye:
+      camera.parameters = {440, 498, 402, 0.02, -0.004};
+      break;
+    case sfm::CameraModel::ThinPrismFisheye:
+      camera.parameters = {450, 455, 502, 401, 0.02, -0.01, 0.001, -0.0008, 0.002, -0.0003, 0.0006, -0.0005};
+      break;
+    case sfm::CameraModel::RadTanThinPrismFisheye:
+      camera.parameters = {400,  402,   501,    399,     0.03,   -0.01, 0.003,   -0.0006,
+                           1e-4, -1e-5, 0.0007, -0.0005, 0.0008, -1e-4, -0.0006, 1e-4};
+      break;
+    case sfm::CameraModel::SimpleDivision:
+      camera.parameters = {650, 500, 400, -0.2};
+      break;
+    case sfm::CameraModel::Division:
+      camera.parameters = {660, 670, 505, 405, 0.05};
+      break;
+    case sfm::CameraModel::SimpleFisheye:
+      camera.parameters = {380, 500, 400};
+      break;
+    case sfm::CameraModel::Fisheye:
+      camera.parameters = {390, 395, 505, 398};
+      break;
+    case sfm::CameraModel::Eucm:
+      camera.parameters = {500, 505, 502, 398, 0.6, 1.1};
+      break;
+    case sfm::CameraModel::Equirectangular:
+      camera.parameters = {1000, 800};
+      break;
     case sfm::CameraModel::NvmRadial:
       camera.parameters = {710, 705, 0, 0, 0.08};
       break;
+    case sfm::CameraModel::Unknown:
+      break;
   }
   return camera;
+}
+
+// All of COLMAP's.
+inline const std::vector<sfm::CameraModel>& colmapModels() {
+  static const std::vector<sfm::CameraModel> models = [] {
+    std::vector<sfm::CameraModel> result;
+    for (int number = 0; number <= static_cast<int>(sfm::CameraModel::Equirectangular); ++number)
+      result.push_back(static_cast<sfm::CameraModel>(number));
+    return result;
+  }();
+  return models;
 }
 
 // Photos at distance about 8 of the origin look at points within 2 of it; every point is seen by each photo with probability
@@ -67,8 +120,7 @@ inline sfm::SparseModel makeScene(Random& random, std::size_t images, std::size_
       sfm::Image& image = model.images[i];
       const sfm::Camera& camera = model.cameras[image.camera];
       const Eigen::Vector3d x = image.rotation.transpose() * (point.position - image.position);
-      const auto pixel =
-          sfm::distort(camera, x / x[2] * sfm::focalLength(camera) + Eigen::Vector3d(0, 0, 1 - sfm::focalLength(camera)));
+      const auto pixel = sfm::project(camera, x);
       if (!pixel) continue;
       if (random.index(4) == 0) image.observations.push_back({random.uniform(0, 1000), random.uniform(0, 800)});
       point.track.push_back({i, image.observations.size()});

@@ -65,6 +65,48 @@ TEST(LocalizationProblem, ExactModelsGiveExactCorrespondences) {
   }
 }
 
+TEST(LocalizationProblem, MapImagesMayHaveAnyCameraModel) {
+  test::Random random(test::testSeed(), 31);
+  const SparseModel model = test::makeScene(random, 18, 120, 0.4, test::colmapModels());
+  for (std::size_t query = 0; query < model.images.size(); ++query) {
+    const CameraModel camera = model.cameras[model.images[query].camera].model;
+    SCOPED_TRACE(toString(camera));
+    if (!hasImagePlane(camera)) {
+      EXPECT_THROW(makeLocalizationProblem(model, query), std::invalid_argument);
+      continue;
+    }
+    const LocalizationProblem problem = makeLocalizationProblem(model, query);
+    ASSERT_GT(problem.points2d3d.size(), 10u);
+    for (std::size_t i = 0; i < problem.points2d3d.size(); ++i) {
+      EXPECT_LT((problem.adapter.getPoint(i) - model.points[problem.points2d3d[i]].position).norm(), 1e-9);
+      EXPECT_LT(reprojectionError(problem, i), 1e-8);
+    }
+    for (std::size_t i = 0; i < problem.points2d2d.size(); ++i) EXPECT_LT(sampsonError(problem, i), 1e-8);
+  }
+}
+
+// A map image with a fisheye camera that sees points to the side and behind itself.
+TEST(LocalizationProblem, RaysMayLeaveAMapImageInAnyDirection) {
+  test::Random random(test::testSeed(), 32);
+  SparseModel model = test::makeScene(random, 6, 80, 1, {CameraModel::Pinhole, CameraModel::SimpleFisheye});
+  for (std::size_t i = 1; i < model.images.size(); i += 2) {  // turned by 100 degrees away from the scene
+    Image& image = model.images[i];
+    image.rotation = image.rotation * Eigen::AngleAxisd(1.75, Vector3d::UnitY()).toRotationMatrix();
+    for (Observation& o : image.observations) {
+      if (o.point == Observation::kNoPoint) continue;
+      const Vector3d x = image.rotation.transpose() * (model.points[o.point].position - image.position);
+      const Vector3d pixel = project(model.cameras[image.camera], x).value();
+      o.x = pixel[0];
+      o.y = pixel[1];
+    }
+  }
+  const LocalizationProblem problem = makeLocalizationProblem(model, 0);
+  ASSERT_EQ(problem.points2d3d.size(), 80u);
+  for (std::size_t i = 0; i < problem.points2d3d.size(); ++i)
+    EXPECT_LT((problem.adapter.getPoint(i) - model.points[problem.points2d3d[i]].position).norm(), 1e-9);
+  EXPECT_TRUE(makeLocalizationProblem(model, 1).points2d3d.empty());  // as a query it has no pinhole image of them
+}
+
 TEST(LocalizationProblem, NumberOfOtherObserversDecidesTheKind) {
   const SparseModel model = makeModel(2);
   const std::size_t query = 3;

@@ -93,7 +93,7 @@ TEST(MalformedFiles, TheUndamagedFilesAreRead) {
 
 TEST(MalformedFiles, ColmapCameras) {
   expectColmapFaults("cameras.txt", {
-                                        {"SIMPLE_RADIAL", "OPENCV_FISHEYE", 2, "OPENCV_FISHEYE"},
+                                        {"SIMPLE_RADIAL", "OPENCV_FISHEYE_2", 2, "OPENCV_FISHEYE_2"},
                                         {"SIMPLE_RADIAL", "simple_radial", 2, "simple_radial"},
                                         {"SIMPLE_RADIAL", "", 2, "camera model"},
                                         {"1 SIMPLE", "2 SIMPLE", 3, "occurs twice"},
@@ -302,8 +302,7 @@ TEST(MalformedFiles, BinaryGiganticCounts) {
 TEST(MalformedFiles, BinaryUnsupportedCameraIsNamed) {
   Files files = writtenBinary();
   const TemporaryFolder folder;
-  for (const auto& [number, name] :
-       std::map<int, std::string>{{5, "OPENCV_FISHEYE"}, {6, "FULL_OPENCV"}, {99, "99"}, {255, "255"}}) {
+  for (const auto& [number, name] : std::map<int, std::string>{{18, "18"}, {99, "99"}, {255, "255"}}) {
     files["cameras.bin"][12] = static_cast<char>(number);
     writeFiles(folder, files);
     try {

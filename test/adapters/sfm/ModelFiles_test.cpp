@@ -15,12 +15,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using test::TemporaryFolder;
 
-const std::vector<CameraModel> kColmapModels{CameraModel::SimplePinhole, CameraModel::Pinhole, CameraModel::SimpleRadial,
-                                             CameraModel::Radial, CameraModel::OpenCV};
-
 SparseModel randomModel(std::uint64_t stream) {
   test::Random random(test::testSeed(), stream);
-  return test::makeScene(random, 7, 60, 0.5, kColmapModels);
+  return test::makeScene(random, 20, 60, 0.5, test::colmapModels());
 }
 
 void expectEqual(const SparseModel& a, const SparseModel& b) {

@@ -57,9 +57,13 @@ struct LocalizationProblem {
 /// Image points are in pixels of the query, undistorted and relative to its principal point (see undistort()); observations
 /// outside the invertible range of the distortion are left out. The rig's frame is the model's. Rig focal lengths are set.
 ///
+/// Map images may have any camera model, since only their viewing rays are needed. A query with a fisheye camera is undistorted to
+/// a pinhole image; its observations more than 60 degrees off the axis are left out, where that image magnifies pixels more than
+/// fourfold. A panorama (no image plane) cannot be a query.
+///
 /// \param imageIndex  index into model.images (not the id in the file)
-/// \throws std::invalid_argument for an index out of range, an image that is not registered, options that are negative or
-///         not finite, and invalid indices or numbers that are not finite in those parts of the model that are needed
+/// \throws std::invalid_argument for an index out of range, an image that is not registered or has no image plane, options
+///         that are negative or not finite, and invalid indices or numbers that are not finite in those parts of the model that are needed
 HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
                                                             const LocalizationProblemOptions& options = {});
 
