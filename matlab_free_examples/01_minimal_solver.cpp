@@ -1,4 +1,4 @@
-// 1. One minimal solver: the pose and focal length of a photo from one 2D-2D and three 2D-3D correspondences (H13f).
+// 1. One minimal solver: the pose and focal length of a query image from one 2D-2D and three 2D-3D correspondences (H13f).
 #include <hybridgv/adapters/NoncentralHybridAdapter.hpp>
 #include <hybridgv/hybrid_pose/methods.hpp>
 
@@ -10,15 +10,15 @@ int main() {
   // The camera that we shall pretend not to know: it looks along +z of the rig's frame from (0.5, -0.2, -1), f = 900 px.
   const Vector3d position(0.5, -0.2, -1);
   const double focalLength = 900;
-  const auto photograph = [&](const Vector3d& point) {
+  const auto project = [&](const Vector3d& point) {
     const Vector3d y = point - position;
     return Vector3d(focalLength * y[0] / y[2], focalLength * y[1] / y[2], 1);
   };
   // What is known: three points of the map, and a rig camera at (2, 0, 0) that saw a fourth one, of unknown depth.
   const std::vector<Vector3d> points{{-1, -1, 6}, {1.5, -0.5, 5}, {0.3, 1.2, 7}};
   const Vector3d fourth(1, 0.5, 6), offset(2, 0, 0);
-  const std::vector<Vector3d> imagePoints2d3d{photograph(points[0]), photograph(points[1]), photograph(points[2])};
-  const std::vector<Vector3d> imagePoints2d2d{photograph(fourth)};
+  const std::vector<Vector3d> imagePoints2d3d{project(points[0]), project(points[1]), project(points[2])};
+  const std::vector<Vector3d> imagePoints2d2d{project(fourth)};
 
   // [readme]
   // Pixels are relative to the principal point; points, bearing vectors and offsets are those of the calibrated rig.

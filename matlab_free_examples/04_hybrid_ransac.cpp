@@ -10,11 +10,11 @@ int main() {
   using Eigen::Vector3d;
   std::mt19937 generator(1);
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator); };
-  // The photo to be localized: at (0.5, -0.2, -1), looking along +z, f = 900 px. Two rig cameras at the sides.
+  // The query image: at (0.5, -0.2, -1), looking along +z, f = 900 px. Two rig cameras at the sides.
   const Vector3d position(0.5, -0.2, -1);
   const double focalLength = 900, imageNoisePx = 0.5;
   const std::vector<Vector3d> offsets{{-2, 0, 0}, {2, 0, 0}};
-  const auto photograph = [&](const Vector3d& point) {
+  const auto project = [&](const Vector3d& point) {
     const Vector3d y = point - position;
     return Vector3d(focalLength * y[0] / y[2] + uniform(-imageNoisePx, imageNoisePx),
                     focalLength * y[1] / y[2] + uniform(-imageNoisePx, imageNoisePx), 1);
@@ -23,8 +23,7 @@ int main() {
   std::vector<int> cameras;
   for (int i = 0; i < 300; ++i) {
     const Vector3d point(uniform(-2, 3), uniform(-2, 2), uniform(4, 9));
-    const Vector3d image =
-        i % 3 ? photograph(point) : Vector3d(uniform(-400, 400), uniform(-300, 300), 1);  // every third is wrong
+    const Vector3d image = i % 3 ? project(point) : Vector3d(uniform(-400, 400), uniform(-300, 300), 1);  // every third is wrong
     if (i < 150) {  // only one rig camera saw it: a viewing ray
       cameras.push_back(i % 2);
       imagePoints2d2d.push_back(image);

@@ -1,4 +1,4 @@
-// 5. A map on disk: every photo of a COLMAP, Bundler or NVM model in turn is localized against the others.
+// 5. A map on disk: every image of a COLMAP, Bundler or NVM model in turn is the query image, localized against the others.
 //    usage: 05_colmap_map [MAP]
 #include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
@@ -11,7 +11,7 @@ int main(int argc, char** argv) try {
   const hybridgv::sfm::SparseModel map = hybridgv::sfm::readModel(argc > 1 ? argv[1] : HYBRIDGV_DEFAULT_MAP);
   for (std::size_t i = 0; i < map.images.size(); ++i) {
     if (!map.images[i].registered) continue;
-    // Leave-one-out: the photo's own observations are taken out of the map before its points are triangulated.
+    // Leave-one-out: the query image's own observations are taken out of the map before its points are triangulated.
     const hybridgv::sfm::LocalizationProblem problem = hybridgv::sfm::makeLocalizationProblem(map, i);
     const hybridgv::sac::HybridRansacResult result = hybridgv::sac::hybridRansac(problem.adapter);
     if (!result.success) {

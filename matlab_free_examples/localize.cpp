@@ -1,6 +1,6 @@
-// The main job: localizes photos of unknown focal length against a map, and shows what the 2D-2D matches add.
+// The main job: localizes query images of unknown focal length against a map, and shows what the 2D-2D matches add.
 //
-//   localize                          the default map, each of its photos in turn as the query
+//   localize                          the default map, each of its images in turn as the query
 //   localize MAP [--query NAME ...]   a COLMAP folder (text or binary), a Bundler .out or an NVM file
 //   localize PROBLEM.txt ...          problems in the text format of hybridgv/adapters/sfm/LocalizationProblem.hpp
 #include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
@@ -43,7 +43,7 @@ struct Arguments {
 // Fills `arguments`; returns the exit code if the program is to stop here (help, wrong usage), -1 otherwise.
 int parse(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
-      "Localizes photos of unknown focal length against a map, from 2D-2D and 2D-3D matches together (hybrid LO-RANSAC),\n"
+      "Localizes images of unknown focal length against a map, from 2D-2D and 2D-3D matches together (hybrid LO-RANSAC),\n"
       "and compares with what the 2D-3D matches alone give on the same data (P3.5Pf). Each query is left out of the map.\n"
       "Without an argument it runs on a small map that comes with the library.\n"};
   app.add_option("input", arguments.inputs,

@@ -6,7 +6,7 @@ fail() { echo "FAILED: $1"; exit 1; }
 
 "$program" --json --outliers 0.3 --seed 3 > "$scratch/all" || fail "default map"
 [ "$(wc -l < "$scratch/all")" = "$(grep -c '"query"' "$scratch/all")" ] || fail "one object a line"
-[ "$(grep -c '"hybrid":{"success":true' "$scratch/all")" = 16 ] || fail "all 16 photos localized with 30 % outliers"
+[ "$(grep -c '"hybrid":{"success":true' "$scratch/all")" = 16 ] || fail "all 16 images localized with 30 % outliers"
 
 # Queries from standard input give the same objects, times aside.
 without_times() { sed 's/"seconds":[^},]*//g' "$1" | sort; }

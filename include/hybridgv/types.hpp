@@ -51,9 +51,9 @@ enum class Solver {
   H51f,   ///< 5 2D-2D and 1 2D-3D, at most 56 solutions (9 if the five rays share one centre)
 };
 
-/// "p4pf", "p35pf", "h13f", "h32f", "h51f"
+/// The name of a solver: "p4pf", "p35pf", "h13f", "h32f", "h51f".
 HYBRIDGV_EXPORT const char* toString(Solver solver);
-/// The inverse of toString; std::invalid_argument for any other name, which lists the valid ones.
+/// The solver of that name; std::invalid_argument for any other name, with a list of the valid ones.
 HYBRIDGV_EXPORT Solver solverFromString(const std::string& name);
 
 /// The library's version at run time ("1.2.3"); HYBRIDGV_VERSION_STRING is that of the headers.

@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kPhotos = 16;
+constexpr std::size_t kImages = 16;
 constexpr std::size_t kPoints = 1100;
 
 // The building: a box on the ground, 22 m wide, 14 m deep, 11 m high; x to the right along the front, y into the building, z up.
@@ -109,7 +109,7 @@ Camera makeCamera(std::size_t index, Random& random) {
   return camera;
 }
 
-// Photographers stop at a few places around the front and the right corner and take several photos at each, at eye height or from
+// Photographers stop at a few places around the front and the right corner and take several images at each, at eye height or from
 // a window across the street.
 Image makeImage(std::size_t index, Random& random) {
   constexpr std::size_t kPlaces = 6;
@@ -117,7 +117,7 @@ Image makeImage(std::size_t index, Random& random) {
   image.id = static_cast<std::uint32_t>(index + 1);
   image.name = "photo_" + std::string(index < 9 ? "0" : "") + std::to_string(index + 1) + ".jpg";
   image.camera = index;
-  const double place = static_cast<double>(index * kPlaces / kPhotos) / (kPlaces - 1);
+  const double place = static_cast<double>(index * kPlaces / kImages) / (kPlaces - 1);
   const double turn = (-105 + 60 * place + random.uniform(-4, 4)) * kPi / 180;
   const double distance = random.uniform(20, 28);
   const double height = index % 4 == 1 ? random.uniform(5, 8) : random.uniform(1.5, 2);
@@ -144,7 +144,7 @@ bool isHidden(const Vector3d& camera, const Vector3d& point) {
   return enter < leave;
 }
 
-// The exact pixel, if the photo can show the point.
+// The exact pixel, if the image can show the point.
 std::optional<Vector3d> project(const Camera& camera, const Image& image, const SurfacePoint& point) {
   const Vector3d sight = image.position - point.position;
   if (sight.normalized().dot(point.normal) < 0.2 || isHidden(image.position, point.position)) return std::nullopt;
@@ -157,7 +157,7 @@ std::optional<Vector3d> project(const Camera& camera, const Image& image, const 
   return inside ? pixel : std::nullopt;
 }
 
-// The photos in which matching finds the point again: those that look at it from nearly the same side as a first one.
+// The images in which matching finds the point again: those that look at it from nearly the same side as a first one.
 std::vector<std::size_t> chooseViewers(const std::vector<Image>& images, const std::vector<std::size_t>& visible,
                                        const SurfacePoint& point, Random& random) {
   constexpr double kWidestAngle = 14 * kPi / 180;
@@ -237,14 +237,14 @@ void addPoint(SparseModel& model, const SurfacePoint& surface, const std::vector
 SparseModel makeDefaultMap(std::uint64_t seed) {
   Random random(seed);
   SparseModel model;
-  for (std::size_t i = 0; i < kPhotos; ++i) {
+  for (std::size_t i = 0; i < kImages; ++i) {
     model.cameras.push_back(makeCamera(i, random));
     model.images.push_back(makeImage(i, random));
   }
   while (model.points.size() < kPoints) {
     const SurfacePoint surface = makeSurfacePoint(random);
     std::vector<std::size_t> visible;
-    for (std::size_t i = 0; i < kPhotos; ++i)
+    for (std::size_t i = 0; i < kImages; ++i)
       if (project(model.cameras[i], model.images[i], surface)) visible.push_back(i);
     if (visible.size() < 2) continue;
     const std::vector<std::size_t> viewers = chooseViewers(model.images, visible, surface, random);

@@ -5,7 +5,7 @@
 
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 
-// Photos of a building, taken around two of its corners with cameras of different focal lengths and distortions, and the points
+// Images of a building, taken around two of its corners with cameras of different focal lengths and distortions, and the points
 // that they see on its facades (with recessed windows, balconies and a roof) and on the ground. Image positions carry Gaussian
 // noise; the points are triangulated from them, as a structure-from-motion program would have left them; poses and cameras are
 // exact. Tracks have the lengths that feature matching gives: many points are seen twice only.

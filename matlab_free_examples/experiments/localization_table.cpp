@@ -1,4 +1,4 @@
-// Every photo of a sparse model in turn is localized against the others, with different sets of minimal solvers in the same
+// Every image of a sparse model in turn is localized against the others, with different sets of minimal solvers in the same
 // hybrid RANSAC, with and without local optimization. All score the 2D-2D and the 2D-3D matches alike.
 //
 // Writes localization_table.csv. Takes any COLMAP, Bundler or NVM models; without one, the map that comes with the library.
@@ -50,7 +50,7 @@ const std::vector<SolverSet> kSolverSets = {
 
 struct Query {
   LocalizationProblem problem;
-  double depth;  // median of the map's points that the photo sees: the yardstick of its position error
+  double depth;  // median of the map's points that the query image sees: the yardstick of its position error
 };
 
 std::vector<Query> makeQueries(const SparseModel& map) {
@@ -115,18 +115,18 @@ void writeRow(CsvFile& csv, const std::string& scene, std::size_t queries, const
 void run(const Settings& settings) {
   CsvFile csv(
       settings.options.output, "localization_table.csv",
-      {text("each photo ", settings.repetitions, " times, with other wrong matches and another seed each time, from ",
+      {text("each query image ", settings.repetitions, " times, with other wrong matches and another seed each time, from ",
             settings.options.seed, " on; wrong matches: ", 100 * settings.outlierShare, " %; thresholds ",
             settings.ransac.maxReprojectionErrorPx, " px (2D-3D), ", settings.ransac.maxEpipolarErrorPx, " px (2D-2D); hybridgv ",
             hybridgv::version()),
        text("within_percent: rotation within ", settings.maxRotationDeg, " deg and position within ", settings.maxPositionPercent,
-            " % of the median depth of the photo's points; a failure counts as an infinite error; milliseconds of processor "
+            " % of the median depth of the image's points; a failure counts as an infinite error; milliseconds of processor "
             "time")},
       "scene,queries,solvers,local_optimization,success_percent,within_percent,rotation_deg,position_percent_of_depth,"
       "focal_percent,milliseconds,iterations");
   for (const std::string& path : settings.maps) {
     const std::vector<Query> queries = makeQueries(hybridgv::sfm::readModel(path));
-    if (queries.empty()) throw std::invalid_argument(path + " has no photo that can be localized");
+    if (queries.empty()) throw std::invalid_argument(path + " has no image that can be localized");
     const std::string scene = sceneName(path);
     const std::size_t attempts = queries.size() * static_cast<std::size_t>(settings.repetitions);
     ProgressBar progress(2 * kSolverSets.size() * attempts, !settings.options.quiet);
@@ -150,9 +150,9 @@ void run(const Settings& settings) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Localizes every photo of sparse models with each minimal solver in the hybrid RANSAC, plain and with local optimization."};
+      "Localizes every image of sparse models with each minimal solver in the hybrid RANSAC, plain and with local optimization."};
   Settings settings;
-  addCommonOptions(app, settings.options, "threads that share the photos (each is localized by one)");
+  addCommonOptions(app, settings.options, "threads that share the images (each is localized by one)");
   app.add_option("map", settings.maps, "COLMAP folder, Bundler .out or NVM file (default: the map that comes with the library)");
   app.add_option("--outliers", settings.outlierShare, "share of the matches to pair wrongly, 0 .. 1")
       ->check(CLI::Range(0.0, 1.0))
@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
   app.add_option("--max-epipolar-error", settings.ransac.maxEpipolarErrorPx, "inlier threshold of 2D-2D matches [px]")
       ->capture_default_str();
   CLI::Option* repetitions =
-      app.add_option("--repetitions", settings.repetitions, "attempts per photo (--quick: 1)")->check(CLI::Range(1, 100000));
+      app.add_option("--repetitions", settings.repetitions, "attempts per image (--quick: 1)")->check(CLI::Range(1, 100000));
   repetitions->capture_default_str();
   return runExperiment(app, argc, argv, [&] {
     if (settings.maps.empty()) settings.maps = {HYBRIDGV_DEFAULT_MAP};

@@ -32,7 +32,7 @@ struct Data {
   correspondences::CorrespondenceArrays arrays;
 };
 
-TEST(PoseScorer, ScoreIsTheSumOverBothTypesWithTheirOwnThresholds) {
+TEST(PoseScorer, ScoreIsTheSumOverBothKindsWithTheirOwnThresholds) {
   test::Random random(test::testSeed(), 60);
   const Data data(random, 150, 333, 0.3);
   const PoseScorer msac(data.arrays, 5, 11, sac::Scoring::Msac), inliers(data.arrays, 5, 11, sac::Scoring::InlierCount);

@@ -1,4 +1,4 @@
-// Exact sparse models: points in a box, photos around it with every camera model.
+// Exact sparse models: points in a box, images around it with every camera model.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -91,7 +91,7 @@ inline const std::vector<sfm::CameraModel>& colmapModels() {
   return models;
 }
 
-// Photos at distance about 8 of the origin look at points within 2 of it; every point is seen by each photo with probability
+// Images at distance about 8 of the origin look at points within 2 of it; every point is seen by each image with probability
 // `visibility`. Ids differ from indices; every image has some features without a point.
 inline sfm::SparseModel makeScene(Random& random, std::size_t images, std::size_t points, double visibility,
                                   const std::vector<sfm::CameraModel>& models) {

@@ -28,20 +28,21 @@ namespace absolute_pose {
 ///
 /// One form of degree 6 in the direction of the optical axis in the plane of three points; about 0.09 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
-/// The same for the first four 2D-3D correspondences.
+/// P4Pf on the adapter's first four 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter);
 
 /// P3.5Pf: the minimal version of p4pf, which leaves out the v coordinate of the fourth image point, so that the seven equations
 /// are as many as the unknowns.
 ///
-/// \param adapter  see p4pf
+/// \param adapter  its 2D-3D correspondences: image points relative to the principal point, undistorted; any unit
 /// \param indices  four different 2D-3D correspondences; of the last one only u is used
-/// \return at most 10 poses (1.8 on average), in no particular order; empty as for p4pf
-/// \throws std::invalid_argument as p4pf
+/// \return at most 10 poses (1.8 on average), in no particular order. Empty for collinear or coinciding points, coinciding image
+///         points and data without a real solution
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices and data that are not finite
 ///
 /// One form of degree 10; about 0.12 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
-/// The same for the first four 2D-3D correspondences.
+/// P3.5Pf on the adapter's first four 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter);
 
 }  // namespace absolute_pose

@@ -33,12 +33,12 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
   virtual Eigen::Vector3d getBearingVector(std::size_t index) const = 0;
   /// The rig camera of 2D-2D correspondence `index`. Equal indices mean equal centres.
   virtual int getCamIndex(std::size_t index) const = 0;
-  /// Centre of that rig camera, in the rig's frame.
+  /// Centre of the rig camera of 2D-2D correspondence `index`, in the rig's frame.
   virtual Eigen::Vector3d getCamOffset(std::size_t index) const = 0;
-  /// Rotation from that rig camera's frame to the rig's.
+  /// Rotation from the frame of that rig camera to the rig's frame (COLMAP stores the inverse).
   virtual Eigen::Matrix3d getCamRotation(std::size_t index) const = 0;
-  /// Focal length of that rig camera in its own pixels, 0 if unknown (the default). It only weighs the map image's part of the
-  /// Sampson error.
+  /// Focal length of the rig camera of 2D-2D correspondence `index` in that camera's own pixels, 0 if it is not known (the
+  /// default). It only weighs the map image's part of the Sampson error.
   virtual double getRigFocalLength(std::size_t index) const;
   /// Quality of 2D-2D correspondence `index`, larger is better (the default is 1 for all). Only the order matters.
   virtual double getWeight2d2d(std::size_t index) const;
@@ -47,9 +47,9 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
   virtual std::size_t getNumberCorrespondences2d3d() const = 0;
   /// Image point (u, v, 1) of 2D-3D correspondence `index` in the query.
   virtual Eigen::Vector3d getImagePoint2d3d(std::size_t index) const = 0;
-  /// Its point in the rig's frame.
+  /// The 3D point of 2D-3D correspondence `index`, in the rig's frame.
   virtual Eigen::Vector3d getPoint(std::size_t index) const = 0;
-  /// Quality of 2D-3D correspondence `index`, likewise.
+  /// Quality of 2D-3D correspondence `index`, larger is better (the default is 1 for all). Only the order matters.
   virtual double getWeight2d3d(std::size_t index) const;
 
  protected:

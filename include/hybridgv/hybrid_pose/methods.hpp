@@ -26,7 +26,7 @@ namespace hybrid_pose {
 ///
 /// The problem is that of Bhayani et al., WACV 2023; solved by one form of degree 12, in about 0.17 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
-/// The same for the first 2D-2D and the first three 2D-3D correspondences.
+/// H13f on the adapter's first 2D-2D and its first three 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 
 /// H32f: pose and focal length of the query from three 2D-2D and two 2D-3D correspondences, whatever rig cameras the three
@@ -59,7 +59,7 @@ HYBRIDGV_EXPORT FocalPoses h13f(const HybridAdapterBase& adapter);
 /// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
 /// correspondences", WACV 2023, which poses the problem and counts its solutions.
 HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
-/// The same for the first three 2D-2D and the first two 2D-3D correspondences.
+/// H32f on the adapter's first three 2D-2D and its first two 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 
 /// H51f: pose and focal length of the query from five 2D-2D correspondences and one 2D-3D correspondence.
@@ -76,40 +76,34 @@ HYBRIDGV_EXPORT FocalPoses h32f(const HybridAdapterBase& adapter);
 /// \return Poses with positive focal length that satisfy all equations; an empty list if there is none or the data are
 ///         degenerate.
 ///
-/// Configuration [5], all five rays from one rig camera: at most 9 poses (1.6 on average). The line of sight from the rig camera
-/// to X acts as a sixth ray; the problem is relative_pose::sixpt_onefocal, and X fixes the length of the baseline. Method: the
-/// real roots of a binary form of degree 9. Cost: about 0.16 of opengv::absolute_pose::gp3p (2.6 microseconds where that takes
-/// 16.4). Poses with a focal length below 5e-4 times the largest image coordinate are left out. Degenerate, nothing is
-/// returned: X and the five points in one plane (then the focal length is not determined), the query at the rig camera's centre,
-/// X there or on the line through both centres, fewer than six independent constraints (repeated correspondences, all image
-/// points equal, ..), two image points exactly at the principal point. Solved less reliably: five image points almost on one line
-/// (the plane of five points seen edge-on).
+/// How many solutions there are depends on the configuration [k], k the largest number of rays that share one centre. Rays have
+/// one centre if they belong to one rig camera, or if their centres differ by less than 1e-9 of the distance from X.
 ///
-/// Configurations [1] to [4], rays of two to five rig cameras: at most 56 poses with [1] and [2], 50 with [3], 36 with [4]
-/// (complex solutions of the equations; 2.5 poses on average). Rays have one centre if they belong to one rig camera, or if their
-/// centres differ by less than 1e-9 of the distance from X. Method: a parameter homotopy. All 56 (50, 36) solutions of a fixed
-/// start system are followed along the straight way to the given one, in single precision, several paths at once in the lanes of
-/// the processor's vector registers (SSE2, AVX2 or AVX-512, chosen at run time; the environment variable
-/// HYBRIDGV_SIMD=sse2|avx2|avx512 asks for less); the end points are polished in double precision, and doubtful paths followed
-/// again with smaller steps.
-/// - A pose may be missing where two solutions nearly coincide (of an almost double solution, one is returned, accurate to the
-///   square root of the rounding error), and where paths pass each other so closely that one is lost even with small steps in
-///   double precision. Measured, with each instruction set: none of 120 000 random noiseless samples lost the true pose, nor
-///   did any of 120 000 with coplanar points, with all cameras on one side, or of rigs with a baseline of a tenth or a fiftieth
-///   of the distance; of 60 000 with an image point at the principal point, at most two did.
-/// - An image point exactly at the principal point moves 8 to 24 solutions to infinity; they are not returned, the others are, in
-///   up to four times the usual time.
-/// - Cost: about 8 times opengv::absolute_pose::gp3p with AVX-512 or AVX2, 23 times with SSE2; with [4] 6 and 16 times. On rigs
-///   that are small beside the distance of the scene up to three times as much.
-/// - Degenerate, normally nothing is returned: a repeated ray, a ray through X, all image points equal, all rays parallel, all
-///   points on one line. The number of steps is bounded, and such data take a few milliseconds at most.
+/// | configuration | solutions at most | poses on average | time, x opengv::absolute_pose::gp3p |
+/// |---|---|---|---|
+/// | [1], [2] | 56 | 2.5 | 8 to 23, by the instruction set |
+/// | [3] | 50 | 2.5 | 8 to 23 |
+/// | [4] | 36 | 2.5 | 6 to 16 |
+/// | [5], all rays from one rig camera | 9 | 1.6 | 0.16 |
+///
+/// Degenerate, normally nothing is returned, with several rig cameras: a repeated ray, a ray through X, all image points equal, all
+/// rays parallel, all points on one line. With one, nothing is returned: X and the five points in one plane (then the focal length is
+/// not determined), the query at the rig camera's centre, X there or on the line through both centres, fewer than six independent constraints
+/// (repeated correspondences, all image points equal), two image points exactly at the principal point.
+///
+/// Less reliable: of two solutions that nearly coincide one may be missing; an image point exactly at the principal point moves 8
+/// to 24 of the 56 solutions to infinity, where they are left out; with one rig camera, five image points almost on one line, and
+/// focal lengths below 5e-4 times the largest image coordinate are left out.
 ///
 /// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite.
+///
+/// Method: [1] to [4] a parameter homotopy, [5] a binary form of degree 9. The pages "One point and five rays" and "One centre"
+/// derive them and say how reliable they are.
 ///
 /// Source: Bhayani, Sattler, Larsson, Heikkila, Kukelova, "Partially calibrated semi-generalized pose from hybrid point
 /// correspondences", WACV 2023, which poses the problem and counts its solutions.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
-/// The same for the first five 2D-2D correspondences and the first 2D-3D correspondence.
+/// H51f on the adapter's first five 2D-2D correspondences and its first 2D-3D correspondence.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter);
 
 /// Result of optimize_nonlinear.
@@ -142,7 +136,7 @@ struct HYBRIDGV_EXPORT NonlinearResult {
 /// Cost: about 5 to 10 iterations of 20 to 60 ns per correspondence, by the processor's instruction set.
 HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
                                                    const FocalPose& initial);
-/// The same over all correspondences of the adapter.
+/// The optimization over all correspondences of the adapter.
 HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial);
 
 }  // namespace hybrid_pose

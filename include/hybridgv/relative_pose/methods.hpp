@@ -43,7 +43,7 @@ namespace relative_pose {
 /// with a single known focal length", ICCV 2009.
 /// Cost: about 0.16 of opengv::absolute_pose::gp3p (2.6 microseconds where that takes 16.4).
 HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
-/// The same for the first six 2D-2D correspondences.
+/// The six-point solver on the adapter's first six 2D-2D correspondences.
 HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter);
 
 }  // namespace relative_pose

@@ -24,17 +24,17 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   FocalPose pose;                 ///< also set if success is false and a model was found (see score), but not to be relied on
   std::vector<char> inliers2d2d;  ///< 1 for an inlier, one entry per 2D-2D correspondence
   std::vector<char> inliers2d3d;  ///< 1 for an inlier, one entry per 2D-3D correspondence
-  int numberInliers2d2d = 0;      ///< of 2D-2D correspondences
-  int numberInliers2d3d = 0;      ///< of 2D-3D correspondences
-  double score = 0;               ///< of the pose, by options.scoring; 0 without a model
+  int numberInliers2d2d = 0;      ///< number of inliers among the 2D-2D correspondences
+  int numberInliers2d3d = 0;      ///< number of inliers among the 2D-3D correspondences
+  double score = 0;               ///< score of the pose, by options.scoring; 0 without a model
 
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
   /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d. All infinite if the inliers
   /// do not fix the pose.
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
-  double noise2d2d = 0;  ///< [px] standard deviation of the Sampson errors, without those that are more likely outliers
-  double noise2d3d = 0;  ///< [px] standard deviation of the reprojection errors per coordinate, likewise
+  double noise2d2d = 0;  ///< [px] standard deviation of the Sampson errors of what is more likely an inlier than an outlier
+  double noise2d3d = 0;  ///< [px] the same of the reprojection errors, for each of the two coordinates
 
   std::optional<Solver> solver;                    ///< whose solution led to the pose; empty if it was options.initialPose
   int iterations = 0;                              ///< samples drawn

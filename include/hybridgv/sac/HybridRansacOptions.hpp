@@ -15,8 +15,8 @@ namespace sac {
 
 /// A minimal solver that may be drawn, with the weight of its choice before anything is known about the data (> 0).
 struct SolverPrior {
-  Solver solver;     ///< which
-  double prior = 1;  ///< relative to the others; only the ratios matter
+  Solver solver;     ///< the minimal solver
+  double prior = 1;  ///< its weight relative to the others'; only the ratios matter
 };
 
 /// What makes a pose better than another.
@@ -27,7 +27,7 @@ enum class Scoring {
 
 /// How samples are drawn.
 enum class Sampling {
-  Uniform,         ///< every sample of a kind is equally likely
+  Uniform,         ///< every sample of a solver is equally likely
   QualityOrdered,  ///< correspondences with larger weights first (PROSAC), where the adapter's weights differ; else Uniform
 };
 
@@ -45,8 +45,8 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
 
-  double minFocalLength = 0;                                        ///< [px] smaller ones are no solutions
-  double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] larger ones are no solutions
+  double minFocalLength = 0;                                        ///< [px] solutions with a smaller one are dropped
+  double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] solutions with a larger one are dropped
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
   std::vector<SolverPrior> solvers = {
@@ -83,9 +83,9 @@ enum class StopReason {
   TimeBudget,     ///< timeBudgetSeconds reached
 };
 
-/// "none", "too few correspondences", ...
+/// The reason in words: "none", "too few correspondences", and so on.
 HYBRIDGV_EXPORT const char* toString(FailureReason reason);
-/// "not started", "confident", ...
+/// What ended the search, in words: "not started", "confident", and so on.
 HYBRIDGV_EXPORT const char* toString(StopReason reason);
 
 }  // namespace sac

@@ -1,10 +1,10 @@
-# Share of the photos localized within the bounds, by solvers; a panel for each scene.
+# Share of the images localized within the bounds, by solvers; a panel for each scene.
 data = folder . "/localization_table.csv"
 scenes = system(sprintf("awk -F, '!/^#/ && $1 != \"scene\" { print $1 }' %s | uniq", data))
 eval "set terminal " . terminal(150 + 350 * words(scenes), 420)
 set output output("localization_table")
-set multiplot layout 1, words(scenes) title "Photos localized within the bounds, by solvers"
-set ylabel "share of the photos [%]"
+set multiplot layout 1, words(scenes) title "Query images localized within the bounds, by solvers"
+set ylabel "share of the images [%]"
 set xrange [-0.6:]
 set yrange [0:119]
 set style fill solid 0.6

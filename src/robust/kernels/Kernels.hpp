@@ -1,4 +1,4 @@
-// The loops over all correspondences: errors of a pose, its score, its normal equations. Plain data only, no Eigen kind: these
+// The loops over all correspondences: errors of a pose, its score, its normal equations. Plain data only, no Eigen type: these
 // functions exist once per instruction set and are chosen at run time.
 #pragma once
 

@@ -51,7 +51,7 @@ TEST(DefaultMap, IsSmall) {
   EXPECT_LE(bytes, 200000u);
 }
 
-TEST(DefaultMap, HasManyFocalLengthsAndEveryCameraModelOfPhotos) {
+TEST(DefaultMap, HasManyFocalLengthsAndEveryCommonCameraModel) {
   const SparseModel model = readModel(kFolder);
   std::set<CameraModel> models;
   std::set<double> focalLengths;

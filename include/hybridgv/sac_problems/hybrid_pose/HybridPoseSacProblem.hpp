@@ -55,8 +55,8 @@ namespace hybrid_pose {
 ///   true.
 class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPose> {
  public:
-  using model_t = FocalPose;                                   ///< OpenGV's loops ask for this name
-  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;  ///< likewise
+  using model_t = FocalPose;                                   ///< the model, under the name that OpenGV's loops ask for
+  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;  ///< where the data come from, under OpenGV's name
 
   /// \param adapter  the correspondences
   /// \param solver  the minimal solver
@@ -95,21 +95,21 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
     }
   }
 
-  /// See HybridProblemCore::isSampleGood.
+  /// False for a sample that cannot fix the pose; what that is, HybridProblemCore::isSampleGood says.
   bool isSampleGood(const std::vector<int>& sample) const override { return core_.isSampleGood(core_.split(sample)); }
 
-  /// See HybridProblemCore::computeModel; the pool is the list set by setIndices.
+  /// Solves a sample and keeps the solution that explains the indices set by setIndices best (HybridProblemCore::computeModel).
   bool computeModelCoefficients(const std::vector<int>& indices, model_t& outModel) const override {
     return core_.computeModel(core_.split(indices), *indices_, outModel);
   }
 
-  /// See HybridProblemCore::distances.
+  /// Errors of the correspondences, each divided by the threshold of its kind (HybridProblemCore::distances).
   void getSelectedDistancesToModel(const model_t& model, const std::vector<int>& indices,
                                    std::vector<double>& scores) const override {
     core_.distances(model, indices, scores);
   }
 
-  /// See HybridProblemCore::countWithin.
+  /// How many distances are below `threshold`, which OpenGV's loops set to `threshold_` (HybridProblemCore::countWithin).
   int countWithinDistance(const model_t& model, const double threshold) override {
     return core_.countWithin(model, *indices_, threshold);
   }

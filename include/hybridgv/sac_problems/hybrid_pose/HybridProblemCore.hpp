@@ -16,7 +16,7 @@ namespace hybridgv {
 namespace sac_problems {
 namespace hybrid_pose {
 
-/// {2D-2D, 2D-3D}
+/// Indices of correspondences, a list for each kind: {2D-2D, 2D-3D}.
 using MultiIndices = std::vector<std::vector<int>>;
 
 /// The mathematics behind HybridPoseSacProblem and MultiHybridPoseSacProblem, which are thin and header-only because OpenGV's
@@ -32,15 +32,15 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver, double maxReprojectionErrorPx,
                     double maxEpipolarErrorPx);
 
-  /// Numbers of 2D-2D and 2D-3D correspondences.
+  /// Numbers of 2D-2D and 2D-3D correspondences of the data.
   std::array<int, 2> size() const;
-  /// How many of each the solver needs.
+  /// How many 2D-2D and 2D-3D correspondences the solver needs.
   std::array<int, 2> sampleSize() const;
 
   /// Flat indices: 0 .. n2d2d-1 are the 2D-2D correspondences, the 2D-3D ones follow. Throws std::invalid_argument for an index
   /// that is out of range.
   MultiIndices split(const std::vector<int>& flat) const;
-  /// The inverse: the 2D-2D correspondences, then the 2D-3D ones.
+  /// The inverse of split: flat indices, those of the 2D-2D correspondences first.
   std::vector<int> join(const MultiIndices& indices) const;
 
   /// Draws a minimal sample from `pool` with random numbers 0 .. 2^31-1: every subset of the right mixture is equally likely.

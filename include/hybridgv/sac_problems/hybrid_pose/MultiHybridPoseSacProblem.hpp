@@ -21,8 +21,8 @@ namespace hybridgv {
 namespace sac_problems {
 namespace hybrid_pose {
 
-/// Two lists of indices: {2D-2D, 2D-3D}. In everything else it is HybridPoseSacProblem (see there): thresholds, choice among the
-/// solutions, seed, lifetime, and what the loop does that a problem cannot change.
+/// The problem for OpenGV's loops over several lists of indices, here two: {2D-2D, 2D-3D}. Thresholds, the choice among the
+/// solutions, seed, lifetime, and what the loop does that a problem cannot change are those of HybridPoseSacProblem.
 ///
 ///     opengv::sac::MultiRansac<MultiHybridPoseSacProblem> ransac;
 ///     ransac.sac_model_ = std::make_shared<MultiHybridPoseSacProblem>(adapter, Solver::H13f, 4.0, 2.0);
@@ -31,10 +31,10 @@ namespace hybrid_pose {
 ///       ransac.sac_model_->optimizeModelCoefficients(ransac.inliers_, ransac.model_coefficients_, refined);
 class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProblem<FocalPose> {
  public:
-  using model_t = FocalPose;                                   ///< OpenGV's loops ask for this name
-  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;  ///< likewise
+  using model_t = FocalPose;                                   ///< the model, under the name that OpenGV's loops ask for
+  using adapter_t = hybridgv::hybrid_pose::HybridAdapterBase;  ///< where the data come from, under OpenGV's name
 
-  /// See HybridPoseSacProblem.
+  /// Copies the adapter's correspondences; parameters and errors are those of HybridPoseSacProblem's constructor.
   MultiHybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
                             std::uint64_t seed = 0)
       : MultiSampleConsensusProblem(false),
@@ -44,13 +44,13 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
     setUniformIndices({core_.size()[0], core_.size()[1]});
   }
 
-  /// See HybridPoseSacProblem.
+  /// Whether the 2D-2D correspondences of a sample come from one rig camera, as HybridPoseSacProblem::setRaysFromOneCamera.
   void setRaysFromOneCamera(bool oneCamera) { raysFromOneCamera_ = oneCamera; }
 
-  /// {m, n}
+  /// The size of a sample: {m, n} for m 2D-2D and n 2D-3D correspondences.
   std::vector<int> getSampleSizes() const override { return {core_.sampleSize()[0], core_.sampleSize()[1]}; }
 
-  /// See HybridPoseSacProblem.
+  /// Draws m 2D-2D and n 2D-3D correspondences of the lists set by setIndices, as HybridPoseSacProblem::getSamples.
   void getSamples(int& /*iterations*/, std::vector<std::vector<int>>& samples) override {
     for (int check = 0; check == 0 || check < max_sample_checks_; ++check) {
       samples = core_.drawSample(*indices_, raysFromOneCamera_, *rng_gen_);
@@ -58,15 +58,15 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
     }
   }
 
-  /// See HybridProblemCore::isSampleGood.
+  /// False for a sample that cannot fix the pose; what that is, HybridProblemCore::isSampleGood says.
   bool isSampleGood(const std::vector<std::vector<int>>& sample) const override { return core_.isSampleGood(sample); }
 
-  /// See HybridProblemCore::computeModel; the pool is the list set by setIndices.
+  /// Solves a sample and keeps the solution that explains the indices set by setIndices best (HybridProblemCore::computeModel).
   bool computeModelCoefficients(const std::vector<std::vector<int>>& indices, model_t& outModel) const override {
     return core_.computeModel(indices, core_.join(*indices_), outModel);
   }
 
-  /// See HybridProblemCore::distances.
+  /// Errors of the correspondences, each divided by the threshold of its kind (HybridProblemCore::distances).
   void getSelectedDistancesToModel(const model_t& model, const std::vector<std::vector<int>>& indices,
                                    std::vector<std::vector<double>>& scores) const override {
     std::vector<double> flat;
@@ -75,7 +75,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
     scores = {{flat.begin(), middle}, {middle, flat.end()}};
   }
 
-  /// See HybridProblemCore::countWithin.
+  /// How many distances are below `threshold`, which OpenGV's loops set to `threshold_` (HybridProblemCore::countWithin).
   int countWithinDistance(const model_t& model, const double threshold) override {
     return core_.countWithin(model, core_.join(*indices_), threshold);
   }

@@ -71,7 +71,7 @@ struct Camera {
   std::uint32_t id = 0;                            ///< the number in the file
   CameraModel model = CameraModel::SimplePinhole;  ///< what the parameters mean
   std::uint64_t width = 0;                         ///< [px], 0 = unknown (Bundler, NVM)
-  std::uint64_t height = 0;                        ///< [px], likewise
+  std::uint64_t height = 0;                        ///< [px], 0 = unknown (Bundler, NVM)
   std::vector<double> parameters;                  ///< in the order given at CameraModel
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// \brief A photo to be localized against the other photos of a sparse model, and the text format of such problems.
+/// \brief An image to be localized against the other images of a sparse model, and the text format of such problems.
 #pragma once
 
 #include <cstddef>
@@ -34,12 +34,12 @@ struct LocalizationProblem {
   std::optional<FocalPose> reference;
   /// For every camera index of the adapter: the image of the model, SparseModel::images (empty if read from a file).
   std::vector<std::size_t> rigImages;
-  /// For every correspondence: the point of the model, SparseModel::points (empty if read from a file).
+  /// For every 2D-2D correspondence: the point of the model, SparseModel::points (empty if read from a file).
   std::vector<std::size_t> points2d2d;
-  std::vector<std::size_t> points2d3d;  ///< likewise
-  /// For every correspondence: true if injectOutliers has given it a wrong image point.
+  std::vector<std::size_t> points2d3d;  ///< for every 2D-3D correspondence: its point of the model (empty if read from a file)
+  /// For every 2D-2D correspondence: true if injectOutliers has given it a wrong image point.
   std::vector<bool> isOutlier2d2d;
-  std::vector<bool> isOutlier2d3d;  ///< likewise
+  std::vector<bool> isOutlier2d3d;  ///< for every 2D-3D correspondence: true if injectOutliers has made it wrong
 };
 
 /// Makes `model.images[imageIndex]` a query of unknown pose and focal length, and the other images the rig (leave-one-out).

@@ -1,5 +1,5 @@
 /// \file
-/// \brief A sparse model: photos with known poses and the 3D points that they see.
+/// \brief A sparse model: images with known poses and the 3D points that they see.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,17 +20,18 @@ struct Observation {
   static constexpr std::size_t kNoPoint = static_cast<std::size_t>(-1);
 
   double x = 0;                  ///< [px] as stored in the file, distorted
-  double y = 0;                  ///< likewise
+  double y = 0;                  ///< [px] as stored in the file, distorted
   std::size_t point = kNoPoint;  ///< index into SparseModel::points, or kNoPoint
 };
 
-/// A photo. Its pose has the meaning of FocalPose: a point X of the model is at rotation^T (X - position) in the camera's frame,
-/// whose z axis looks forward and whose y axis points down in the image. (The files store the inverse; the readers convert.)
+/// An image of the map. Its pose has the meaning of FocalPose: a point X of the model is at rotation^T (X - position) in the
+/// camera's frame, whose z axis looks forward and whose y axis points down in the image. (The files store the inverse; the readers
+/// convert.)
 struct Image {
   std::uint32_t id = 0;    ///< the number in the file
   std::string name;        ///< as in the file
   std::size_t camera = 0;  ///< index into SparseModel::cameras
-  bool registered = true;  ///< false: the file lists the photo without a pose (Bundler); it has no observations
+  bool registered = true;  ///< false: the file lists the image without a pose (Bundler); it has no observations
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< camera -> model
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< centre of the camera in the model's frame
   std::vector<Observation> observations;                   ///< its features
@@ -55,7 +56,7 @@ struct Point {
 /// `images[t.image].observations[t.observation].point` is the point's own index for each element t of its track.
 struct SparseModel {
   std::vector<Camera> cameras;  ///< intrinsic parameters, each shared by one or more images
-  std::vector<Image> images;    ///< the photos
+  std::vector<Image> images;    ///< the images of the map
   std::vector<Point> points;    ///< the 3D points
 };
 
