@@ -1,4 +1,4 @@
-// hybridRansac on real sparse models: every photo in turn is left out of its map and localized against the rest.
+// hybridRansac on real sparse models: every image in turn is left out of its map and localized against the rest.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -36,7 +36,7 @@ NoncentralHybridAdapter pointsOnly(const NoncentralHybridAdapter& adapter) {
 
 class RealModel : public testing::Test {
  protected:
-  // Localizes every registered photo, with `repeats` different sets of outliers; `hybrid` and `points2d3d` are the errors with
+  // Localizes every registered image, with `repeats` different sets of outliers; `hybrid` and `points2d3d` are the errors with
   // all matches and with the 2D-3D ones alone.
   void localizeAll(const std::string& file, double outlierShare, std::uint64_t repeats = 1) {
     const std::string path = std::string(HYBRIDGV_REALDATA_DIR) + "/" + file;
@@ -62,7 +62,7 @@ class RealModel : public testing::Test {
     for (std::size_t i = 0; i < hybrid.size(); ++i) count += hybrid[i].focalPercent <= points2d3d[i].focalPercent;
     return count;
   }
-  // The error of the focal length [%] that a share of the photos does not exceed.
+  // The error of the focal length [%] that a share of the images does not exceed.
   static double quantile(const std::vector<Errors>& errors, double share) {
     return quantile(errors, share, [](const Errors& e) { return e.focalPercent; });
   }
@@ -73,7 +73,7 @@ class RealModel : public testing::Test {
     std::sort(values.begin(), values.end());
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   }
-  // With rays the median error is as without them or smaller, and one photo in ten does not become worse. A quarter of the stated
+  // With rays the median error is as without them or smaller, and one image in ten does not become worse. A quarter of the stated
   // standard deviation is allowed: by as much do medians of ten sets of outliers differ.
   void expectRaysDoNoHarm(const std::string& file) {
     for (const double outlierShare : {0., 0.3, 0.5}) {
@@ -96,7 +96,7 @@ TEST_F(RealModel, BalbianelloWithAThirdOfTheMatchesWrong) {
   EXPECT_EQ(within(1, 0.5), 5);
 }
 
-TEST_F(RealModel, KermitGainsFromRaysInNearlyEveryPhoto) {
+TEST_F(RealModel, KermitGainsFromRaysInNearlyEveryImage) {
   localizeAll("kermit/bundle.out", 0);
   if (IsSkipped()) return;
   EXPECT_EQ(hybrid.size(), 9u);

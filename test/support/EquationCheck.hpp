@@ -1,5 +1,5 @@
 // Whether a pose is one and satisfies the equations of a minimal sample, for data of any size: up to rounding errors in the unit
-// of the whole scene, and without an opinion where these are as large as the image.
+// of the whole scene. Where these are as large as the image, nothing is checked.
 #pragma once
 
 #include <Eigen/Core>

@@ -8,6 +8,7 @@
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
+#include "statistics.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -31,11 +32,6 @@ std::size_t countTrackElements(const SparseModel& model) {
   std::size_t result = 0;
   for (const Point& point : model.points) result += point.track.size();
   return result;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 // Of every observation under the model's own poses and points [px of the undistorted image].
@@ -65,7 +61,7 @@ TEST_F(RealData, KermitHasElevenImagesOfWhichNineHavePoses) {
     EXPECT_GT(focalLength(model.cameras[i]), 637);
     EXPECT_LT(focalLength(model.cameras[i]), 729);
   }
-  EXPECT_LT(median(reprojectionErrors(model)), 0.5);
+  EXPECT_LT(test::median(reprojectionErrors(model)), 0.5);
 }
 
 TEST_F(RealData, BalbianelloHasFiveImages) {
@@ -73,7 +69,7 @@ TEST_F(RealData, BalbianelloHasFiveImages) {
   EXPECT_EQ(model.images.size(), 5u);
   EXPECT_EQ(countRegistered(model), 5u);
   EXPECT_EQ(model.points.size(), 544u);
-  EXPECT_LT(median(reprojectionErrors(model)), 0.5);
+  EXPECT_LT(test::median(reprojectionErrors(model)), 0.5);
 }
 
 TEST_F(RealData, CraneHasEightImagesOfOneCamera) {
@@ -84,7 +80,7 @@ TEST_F(RealData, CraneHasEightImagesOfOneCamera) {
   EXPECT_EQ(countRegistered(model), 8u);
   EXPECT_EQ(model.points.size(), 2122u);
   EXPECT_EQ(countTrackElements(model), 6037u);
-  EXPECT_LT(median(reprojectionErrors(model)), 1.5);
+  EXPECT_LT(test::median(reprojectionErrors(model)), 1.5);
 }
 
 // The problem of the same image, made by other means: the same image points, points and rays in both.

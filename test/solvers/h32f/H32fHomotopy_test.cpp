@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "FocalPoseNear.hpp"
 #include "H32fSystem.hpp"
 #include "solvers/h51f/Reduction.hpp"
 #include "solvers/solvers.hpp"
@@ -108,9 +109,9 @@ TEST_P(H32fHomotopy, AgreesWithTheEliminationSolver) {
     eliminated.resize(
         static_cast<std::size_t>(solvers::h32f::solve(problem.rays.data(), problem.points.data(), eliminated.data())));
     EXPECT_EQ(tracked.size(), eliminated.size()) << "problem " << i;
-    for (const FocalPose& pose : eliminated) EXPECT_LT(distanceToNearest(tracked, pose), kEqual) << "problem " << i;
-    for (const FocalPose& pose : tracked) EXPECT_LT(distanceToNearest(eliminated, pose), kEqual) << "problem " << i;
-    EXPECT_LT(distanceToNearest(tracked, problem.truth), kEqual) << "problem " << i;
+    for (const FocalPose& pose : eliminated) EXPECT_TRUE(hasFocalPoseNear(tracked, pose, kEqual)) << "problem " << i;
+    for (const FocalPose& pose : tracked) EXPECT_TRUE(hasFocalPoseNear(eliminated, pose, kEqual)) << "problem " << i;
+    EXPECT_TRUE(hasFocalPoseNear(tracked, problem.truth, kEqual)) << "problem " << i;
   }
 }
 

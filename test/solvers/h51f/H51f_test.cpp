@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "FocalPoseNear.hpp"
 #include "GoldenProblems.hpp"
 #include "H51fScenes.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
@@ -36,10 +37,9 @@ FocalPoses solve(const MinimalProblem& problem) {
 
 // The poses satisfy the equations and no pose is there twice.
 void expectValid(const MinimalProblem& problem, const FocalPoses& solutions) {
-  for (std::size_t i = 0; i < solutions.size(); ++i) {
-    EXPECT_LT(largestResidual(problem, solutions[i], 1), kSmallResidual) << "f " << solutions[i].focalLength;
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GT(poseDistance(solutions[i], solutions[j]), 1e-9);
-  }
+  for (const FocalPose& pose : solutions)
+    EXPECT_LT(largestResidual(problem, pose, 1), kSmallResidual) << "f " << pose.focalLength;
+  EXPECT_TRUE(areDistinct(solutions, 1e-9));
 }
 
 std::vector<SimdLevel> supportedLevels() {
@@ -108,7 +108,7 @@ TEST_P(H51fLevels, FindsAlmostDoubleSolutions) {
     Random random(p.seed, p.stream);
     const MinimalProblem problem =
         p.rigHalfSize > 0 ? makeRigProblem(random, p.pattern, p.rigHalfSize) : makeMinimalProblem(random, p.pattern, 1);
-    EXPECT_LT(distanceToNearest(solve(problem, GetParam()), problem.truth), 1e-5) << p.seed << ", " << p.stream;
+    EXPECT_TRUE(hasFocalPoseNear(solve(problem, GetParam()), problem.truth, 1e-5)) << p.seed << ", " << p.stream;
   }
 }
 
@@ -268,7 +268,7 @@ TEST_P(H51fPatterns, FindsAllRecordedSolutions) {
   for (const GoldenProblem& golden : problems) {
     const FocalPoses solutions = solve(golden.problem);
     expectValid(golden.problem, solutions);
-    for (const FocalPose& expected : golden.solutions) EXPECT_LT(distanceToNearest(solutions, expected), 1e-5);
+    for (const FocalPose& expected : golden.solutions) EXPECT_TRUE(hasFocalPoseNear(solutions, expected, 1e-5));
     EXPECT_EQ(solutions.size(), golden.solutions.size());
   }
 }
@@ -276,7 +276,7 @@ TEST_P(H51fPatterns, FindsAllRecordedSolutions) {
 // Both lists hold the same poses.
 void expectEqual(const FocalPoses& a, const FocalPoses& b, double tolerance) {
   EXPECT_EQ(a.size(), b.size());
-  for (const FocalPose& pose : a) EXPECT_LT(distanceToNearest(b, pose), tolerance);
+  for (const FocalPose& pose : a) EXPECT_TRUE(hasFocalPoseNear(b, pose, tolerance));
 }
 
 TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
@@ -332,7 +332,7 @@ TEST(H51f, FiveRaysOfOneCentreGoToTheirOwnSolver) {
   MinimalProblem problem = makeMinimalProblem(random, {5}, 1);
   const FocalPoses solutions = solve(problem);
   expectValid(problem, solutions);
-  EXPECT_LT(distanceToNearest(solutions, problem.truth), kRecovered);
+  EXPECT_TRUE(hasFocalPoseNear(solutions, problem.truth, kRecovered));
   for (std::size_t j = 0; j < 5; ++j) problem.rays[j].camera = static_cast<int>(j);
   expectEqual(solve(problem), solutions, 1e-12);
 }
@@ -342,7 +342,7 @@ TEST(H51f, PublicFunctionReadsTheAdapter) {
   const MinimalProblem problem = makeMinimalProblem(random, {2, 1, 1, 1}, 1);
   const FocalPoses solutions = hybrid_pose::h51f(makeAdapter(problem));
   expectEqual(solutions, solve(problem), 1e-9);
-  EXPECT_LT(distanceToNearest(solutions, problem.truth), kRecovered);
+  EXPECT_TRUE(hasFocalPoseNear(solutions, problem.truth, kRecovered));
 }
 
 }  // namespace

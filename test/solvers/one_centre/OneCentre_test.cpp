@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "FocalPoseNear.hpp"
 #include "GoldenProblems.hpp"
 #include "OneCentreProblems.hpp"
 
@@ -26,12 +27,12 @@ constexpr double kSmallResidual = 1e-5;  // [px]
 // What the contract says of every list of solutions.
 void expectValid(const MinimalProblem& problem, const FocalPoses& solutions, const char* where, std::uint64_t index) {
   EXPECT_LE(solutions.size(), 9u) << where << " " << index;
-  for (std::size_t i = 0; i < solutions.size(); ++i) {
-    EXPECT_LT(largestResidual(problem, solutions[i], problem.points.size()), kSmallResidual)
-        << where << " " << index << ", f " << solutions[i].focalLength;
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GT(poseDistance(solutions[i], solutions[j]), 1e-9) << where << " " << index;
+  EXPECT_TRUE(areDistinct(solutions, 1e-9)) << where << " " << index;
+  for (const FocalPose& pose : solutions) {
+    EXPECT_LT(largestResidual(problem, pose, problem.points.size()), kSmallResidual)
+        << where << " " << index << ", f " << pose.focalLength;
     if (problem.points.empty()) {
-      EXPECT_NEAR((solutions[i].position - problem.rays[0].centre).norm(), 1, 1e-12) << where << " " << index;
+      EXPECT_NEAR((pose.position - problem.rays[0].centre).norm(), 1, 1e-12) << where << " " << index;
     }
   }
 }
@@ -39,7 +40,7 @@ void expectValid(const MinimalProblem& problem, const FocalPoses& solutions, con
 // Every solution of one list is in the other.
 void expectContains(const FocalPoses& all, const FocalPoses& some, double tolerance, std::uint64_t index) {
   for (const FocalPose& pose : some)
-    EXPECT_LT(distanceToNearest(all, pose), tolerance) << "problem " << index << ", f " << pose.focalLength;
+    EXPECT_TRUE(hasFocalPoseNear(all, pose, tolerance)) << "problem " << index << ", f " << pose.focalLength;
 }
 
 TEST_P(OneCentre, FindsTheTruth) {
@@ -152,7 +153,7 @@ TEST(SixRays, FindsEverySolutionThatNewtonFindsFromRandomStarts) {
         pose.focalLength = f * MultiStart::kImageScale;
         if (!(largestResidual(problem, pose, 0) < 1e-3)) continue;
         ++compared;
-        EXPECT_LT(distanceToNearest(solutions, pose), 1e-5) << "problem " << i << ", f " << pose.focalLength;
+        EXPECT_TRUE(hasFocalPoseNear(solutions, pose, 1e-5)) << "problem " << i << ", f " << pose.focalLength;
       }
     }
   }
