@@ -24,8 +24,7 @@ void expectWrong(const std::string& wrong, const std::string& argument, const st
   Arguments arguments;
   EXPECT_NO_THROW(arguments.adapter());
   change(arguments);
-  expectRefused(
-      wrong, [&] { arguments.adapter(); }, argument);
+  expectRefused(wrong, argument, [&] { arguments.adapter(); });
 }
 
 TEST(Misuse, NoncentralAdapterRefusesNumbersThatAreNotFinite) {
@@ -76,40 +75,17 @@ TEST(Misuse, NoncentralAdapterRefusesWrongFocalLengthsAndWeights) {
   NoncentralHybridAdapter adapter = Arguments().adapter();
   for (const std::size_t count : {0, 1, 3}) {
     const std::vector<double> wrong(count, 1);
-    expectRefused(
-        "count", [&] { adapter.setRigFocalLengths(wrong); }, "focalLengths");
+    expectRefused("count", "focalLengths", [&] { adapter.setRigFocalLengths(wrong); });
     if (count == 0) continue;  // no weights: all equal
-    expectRefused(
-        "count", [&] { adapter.setWeights(wrong, {}); }, "weights2d2d");
-    expectRefused(
-        "count", [&] { adapter.setWeights({}, wrong); }, "weights2d3d");
+    expectRefused("count", "weights2d2d", [&] { adapter.setWeights(wrong, {}); });
+    expectRefused("count", "weights2d3d", [&] { adapter.setWeights({}, wrong); });
   }
   for (const double value : notFinite()) {
-    expectRefused(
-        "value",
-        [&] {
-          adapter.setRigFocalLengths({1, value});
-        },
-        "focalLengths[1]");
-    expectRefused(
-        "value",
-        [&] {
-          adapter.setWeights({value, 1}, {});
-        },
-        "weights2d2d[0]");
-    expectRefused(
-        "value",
-        [&] {
-          adapter.setWeights({}, {1, value});
-        },
-        "weights2d3d[1]");
+    expectRefused("value", "focalLengths[1]", [&] { adapter.setRigFocalLengths({1, value}); });
+    expectRefused("value", "weights2d2d[0]", [&] { adapter.setWeights({value, 1}, {}); });
+    expectRefused("value", "weights2d3d[1]", [&] { adapter.setWeights({}, {1, value}); });
   }
-  expectRefused(
-      "negative",
-      [&] {
-        adapter.setRigFocalLengths({-1, 1});
-      },
-      "focalLengths[0]");
+  expectRefused("negative", "focalLengths[0]", [&] { adapter.setRigFocalLengths({-1, 1}); });
 }
 
 }  // namespace

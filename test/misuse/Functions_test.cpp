@@ -61,8 +61,7 @@ TEST(Misuse, SolversRefuseWrongIndices) {
       const auto expectWrong = [&](const std::string& what, const std::vector<int>& indices) {
         MultiIndices wrong = good;
         wrong[list] = indices;
-        expectRefused(
-            solver.name + ", " + argument + " " + what, [&] { solver.solve(adapter, wrong); }, argument);
+        expectRefused(solver.name + ", " + argument + " " + what, argument, [&] { solver.solve(adapter, wrong); });
       };
       expectWrong("empty", {});
       expectWrong("too few", upTo(static_cast<int>(good[list].size()) - 1));
@@ -82,8 +81,8 @@ TEST(Misuse, SolversRefuseWrongIndices) {
     }
     if (!solver.twoLists) continue;
     for (const MultiIndices& lists : {MultiIndices{}, MultiIndices{good[0]}, MultiIndices{good[0], good[1], {}}})
-      expectRefused(
-          solver.name + " with " + std::to_string(lists.size()) + " lists", [&] { solver.solve(adapter, lists); }, "indices");
+      expectRefused(solver.name + " with " + std::to_string(lists.size()) + " lists", "indices",
+                    [&] { solver.solve(adapter, lists); });
   }
 }
 
@@ -102,17 +101,14 @@ TEST(Misuse, SolversRefuseAdaptersWithTooFewCorrespondences) {
   const NoncentralHybridAdapter empty({}, {}, {}, {}, {}, {}, {});
   Random random(testSeed() + 801);
   for (const PublicSolver& solver : publicSolvers()) {
-    expectRefused(
-        solver.name, [&] { solver.solveFirst(empty); }, "indices");
+    expectRefused(solver.name, "indices", [&] { solver.solveFirst(empty); });
     if (solver.rays > 0) {
       const NoncentralHybridAdapter few = makeAdapter(makeMinimalProblem(random, {solver.rays - 1}, solver.points));
-      expectRefused(
-          solver.name, [&] { solver.solveFirst(few); }, "indices");
+      expectRefused(solver.name, "indices", [&] { solver.solveFirst(few); });
     }
     if (solver.points > 0) {
       const NoncentralHybridAdapter few = makeAdapter(makeMinimalProblem(random, {solver.rays}, solver.points - 1));
-      expectRefused(
-          solver.name, [&] { solver.solveFirst(few); }, "indices");
+      expectRefused(solver.name, "indices", [&] { solver.solveFirst(few); });
     }
   }
 }
@@ -126,8 +122,7 @@ TEST(Misuse, SolversRefuseNumbersThatAreNotFinite) {
     for (const WrongField& field : fields) {
       AlteredAdapter adapter;
       field.apply(adapter);
-      expectRefused(
-          solver.name + ", " + field.name, [&] { solver.solveFirst(adapter); }, field.getter);
+      expectRefused(solver.name + ", " + field.name, field.getter, [&] { solver.solveFirst(adapter); });
     }
   }
 }
@@ -138,52 +133,28 @@ TEST(Misuse, OptimizeNonlinearRefusesWrongArguments) {
   const auto optimize = [&](const MultiIndices& indices) { hybrid_pose::optimize_nonlinear(adapter, indices, start); };
   EXPECT_NO_THROW(optimize({{}, {}}));
   for (const MultiIndices& lists : {MultiIndices{}, MultiIndices{{0}}, MultiIndices{{0}, {0}, {0}}})
-    expectRefused(
-        std::to_string(lists.size()) + " lists", [&] { optimize(lists); }, "indices");
+    expectRefused(std::to_string(lists.size()) + " lists", "indices", [&] { optimize(lists); });
   for (const int index : {-1, std::numeric_limits<int>::min(), 12, std::numeric_limits<int>::max()}) {
-    expectRefused(
-        "ray " + std::to_string(index),
-        [&] {
-          optimize({{0, index}, {0}});
-        },
-        "indices[0]");
-    expectRefused(
-        "point " + std::to_string(index),
-        [&] {
-          optimize({{0}, {0, index}});
-        },
-        "indices[1]");
+    expectRefused("ray " + std::to_string(index), "indices[0]", [&] { optimize({{0, index}, {0}}); });
+    expectRefused("point " + std::to_string(index), "indices[1]", [&] { optimize({{0}, {0, index}}); });
   }
-  expectRefused(
-      "repeated ray",
-      [&] {
-        optimize({{1, 2, 1}, {0}});
-      },
-      "indices[0]");
-  expectRefused(
-      "repeated point",
-      [&] {
-        optimize({{0}, {0, 1, 2, 3, 4, 5, 6, 7, 3}});
-      },
-      "indices[1]");
+  expectRefused("repeated ray", "indices[0]", [&] { optimize({{1, 2, 1}, {0}}); });
+  expectRefused("repeated point", "indices[1]", [&] { optimize({{0}, {0, 1, 2, 3, 4, 5, 6, 7, 3}}); });
   for (const WrongPose& wrong : wrongPoses())
-    expectRefused(
-        wrong.name, [&] { hybrid_pose::optimize_nonlinear(adapter, wrong.pose); }, "initial");
+    expectRefused(wrong.name, "initial", [&] { hybrid_pose::optimize_nonlinear(adapter, wrong.pose); });
   std::vector<WrongField> fields = wrongRayFields();
   const std::vector<WrongField> ofPoints = wrongPointFields();
   fields.insert(fields.end(), ofPoints.begin(), ofPoints.end());
   for (const WrongField& field : fields) {
     AlteredAdapter altered;
     field.apply(altered);
-    expectRefused(
-        field.name, [&] { hybrid_pose::optimize_nonlinear(altered, start); }, field.getter);
+    expectRefused(field.name, field.getter, [&] { hybrid_pose::optimize_nonlinear(altered, start); });
   }
   for (const double value : {kNaN, kInfinite, -1.0}) {
     AlteredAdapter altered;
     altered.rigFocalLength = value;
-    expectRefused(
-        "rig focal length " + std::to_string(value), [&] { hybrid_pose::optimize_nonlinear(altered, start); },
-        "getRigFocalLength(0)");
+    expectRefused("rig focal length " + std::to_string(value), "getRigFocalLength(0)",
+                  [&] { hybrid_pose::optimize_nonlinear(altered, start); });
   }
 }
 
@@ -239,12 +210,9 @@ TEST(Misuse, ResidualsOfNumbersThatAreNotFiniteAreInfinite) {
 }
 
 TEST(Misuse, UnknownSolverNamesAreRefused) {
-  for (const char* name : {"", "H13F", "h13f ", "p3p"})
-    expectRefused(
-        name, [&] { solverFromString(name); }, "solver");
+  for (const char* name : {"", "H13F", "h13f ", "p3p"}) expectRefused(name, "solver", [&] { solverFromString(name); });
   for (const int value : {-1, 5, 1000})
-    expectRefused(
-        std::to_string(value), [&] { toString(static_cast<Solver>(value)); }, "solver");
+    expectRefused(std::to_string(value), "solver", [&] { toString(static_cast<Solver>(value)); });
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "HybridScene.hpp"
+#include "expectRefused.hpp"
 
 namespace hybridgv {
 namespace test {
@@ -20,19 +21,6 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 inline const std::vector<double>& notFinite() {
   static const std::vector<double> values{kNaN, kInfinite, -kInfinite};
   return values;
-}
-
-// The call throws std::invalid_argument, and the message contains `argument`.
-inline void expectRefused(const std::string& wrong, const std::function<void()>& call, const std::string& argument) {
-  try {
-    call();
-    ADD_FAILURE() << wrong << ": accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find(argument), std::string::npos)
-        << wrong << ": expected a message about " << argument << ", got: " << error.what();
-  } catch (const std::exception& error) {
-    ADD_FAILURE() << wrong << ": another exception: " << error.what();
-  }
 }
 
 // Twelve 2D-2D correspondences, the first six of camera 0, and eight 2D-3D ones.

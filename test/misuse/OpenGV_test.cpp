@@ -37,8 +37,7 @@ void expectWrong(const std::string& wrong, const std::string& argument, const st
   OpenGVLists lists;
   EXPECT_NO_THROW(lists.wrap());
   change(lists);
-  expectRefused(
-      wrong, [&] { lists.wrap(); }, argument);
+  expectRefused(wrong, argument, [&] { lists.wrap(); });
 }
 
 TEST(Misuse, OpengvAdapterRefusesWhatAPinholeQueryCannotBe) {
@@ -75,8 +74,7 @@ TEST(Misuse, NumbersOfOpengvsRigThatAreNotFiniteAreRefusedByTheSolvers) {
     const opengv::absolute_pose::NoncentralAbsoluteAdapter absolute(lists.absolute, lists.absoluteCameras, lists.points,
                                                                     lists.absoluteOffsets, lists.absoluteRotations);
     const OpenGVHybridAdapter adapter(relative, absolute, 800);
-    expectRefused(
-        std::to_string(value), [&] { hybrid_pose::optimize_nonlinear(adapter, FocalPose()); }, "getCamOffset(1)");
+    expectRefused(std::to_string(value), "getCamOffset(1)", [&] { hybrid_pose::optimize_nonlinear(adapter, FocalPose()); });
   }
 }
 
@@ -85,12 +83,9 @@ TEST(Misuse, ProblemsRefuseWrongThresholdsSolversAndAdapters) {
   const auto expectAllRefuse = [](const std::string& wrong, const std::string& argument,
                                   const hybrid_pose::HybridAdapterBase& data, Solver solver, double reprojection,
                                   double epipolar) {
-    expectRefused(
-        wrong, [&] { HybridProblemCore(data, solver, reprojection, epipolar); }, argument);
-    expectRefused(
-        wrong, [&] { HybridPoseSacProblem(data, solver, reprojection, epipolar); }, argument);
-    expectRefused(
-        wrong, [&] { MultiHybridPoseSacProblem(data, solver, reprojection, epipolar); }, argument);
+    expectRefused(wrong, argument, [&] { HybridProblemCore(data, solver, reprojection, epipolar); });
+    expectRefused(wrong, argument, [&] { HybridPoseSacProblem(data, solver, reprojection, epipolar); });
+    expectRefused(wrong, argument, [&] { MultiHybridPoseSacProblem(data, solver, reprojection, epipolar); });
   };
   for (const double value : {kNaN, kInfinite, -kInfinite, 0.0, -1.0}) {
     expectAllRefuse(std::to_string(value), "maxReprojectionErrorPx", adapter, Solver::H13f, value, 1);
@@ -125,38 +120,14 @@ TEST(Misuse, ProblemsRefuseWrongIndices) {
 
   for (const int index : {-1, std::numeric_limits<int>::min(), 20, std::numeric_limits<int>::max()}) {
     const std::string wrong = std::to_string(index), text = "index " + wrong;
-    expectRefused(
-        wrong,
-        [&] {
-          core.split({0, index});
-        },
-        text);
-    expectRefused(
-        wrong,
-        [&] {
-          core.computeModel({{0}, {0, 1, 2}}, {index}, model);
-        },
-        text);
-    expectRefused(
-        wrong, [&] { core.distances(model, {index}, distances); }, text);
-    expectRefused(
-        wrong, [&] { core.countWithin(model, {index}, 1); }, text);
-    expectRefused(
-        wrong,
-        [&] {
-          flat.isSampleGood({0, 12, 13, index});
-        },
-        text);
-    expectRefused(
-        wrong,
-        [&] {
-          flat.computeModelCoefficients({0, 12, 13, index}, model);
-        },
-        text);
-    expectRefused(
-        wrong, [&] { flat.getSelectedDistancesToModel(model, {index}, distances); }, text);
-    expectRefused(
-        wrong, [&] { flat.optimizeModelCoefficients({index}, model, model); }, text);
+    expectRefused(wrong, text, [&] { core.split({0, index}); });
+    expectRefused(wrong, text, [&] { core.computeModel({{0}, {0, 1, 2}}, {index}, model); });
+    expectRefused(wrong, text, [&] { core.distances(model, {index}, distances); });
+    expectRefused(wrong, text, [&] { core.countWithin(model, {index}, 1); });
+    expectRefused(wrong, text, [&] { flat.isSampleGood({0, 12, 13, index}); });
+    expectRefused(wrong, text, [&] { flat.computeModelCoefficients({0, 12, 13, index}, model); });
+    expectRefused(wrong, text, [&] { flat.getSelectedDistancesToModel(model, {index}, distances); });
+    expectRefused(wrong, text, [&] { flat.optimizeModelCoefficients({index}, model, model); });
   }
   for (const int index : {-1, std::numeric_limits<int>::min(), 12, std::numeric_limits<int>::max()})
     for (const std::size_t list : {0u, 1u}) {
@@ -165,53 +136,31 @@ TEST(Misuse, ProblemsRefuseWrongIndices) {
       indices[list][0] = index;
       const std::string wrong = std::to_string(index) + " in list " + std::to_string(list),
                         text = "index " + std::to_string(index);
-      expectRefused(
-          wrong, [&] { core.join(indices); }, text);
-      expectRefused(
-          wrong, [&] { core.drawSample(indices, false, random); }, text);
-      expectRefused(
-          wrong, [&] { core.isSampleGood(indices); }, text);
-      expectRefused(
-          wrong, [&] { core.computeModel(indices, {0}, model); }, text);
-      expectRefused(
-          wrong, [&] { core.optimize(indices, model); }, text);
-      expectRefused(
-          wrong, [&] { multi.isSampleGood(indices); }, text);
-      expectRefused(
-          wrong, [&] { multi.computeModelCoefficients(indices, model); }, text);
-      expectRefused(
-          wrong, [&] { multi.getSelectedDistancesToModel(model, indices, multiDistances); }, text);
-      expectRefused(
-          wrong, [&] { multi.optimizeModelCoefficients(indices, model, model); }, text);
+      expectRefused(wrong, text, [&] { core.join(indices); });
+      expectRefused(wrong, text, [&] { core.drawSample(indices, false, random); });
+      expectRefused(wrong, text, [&] { core.isSampleGood(indices); });
+      expectRefused(wrong, text, [&] { core.computeModel(indices, {0}, model); });
+      expectRefused(wrong, text, [&] { core.optimize(indices, model); });
+      expectRefused(wrong, text, [&] { multi.isSampleGood(indices); });
+      expectRefused(wrong, text, [&] { multi.computeModelCoefficients(indices, model); });
+      expectRefused(wrong, text, [&] { multi.getSelectedDistancesToModel(model, indices, multiDistances); });
+      expectRefused(wrong, text, [&] { multi.optimizeModelCoefficients(indices, model, model); });
     }
   for (const std::vector<std::vector<int>>& lists : {std::vector<std::vector<int>>{}, {{0}}, {{0}, {0, 1, 2}, {}}}) {
     const std::string wrong = std::to_string(lists.size()) + " lists";
-    expectRefused(
-        wrong, [&] { core.join(lists); }, "two lists");
-    expectRefused(
-        wrong, [&] { core.drawSample(lists, false, random); }, "two lists");
-    expectRefused(
-        wrong, [&] { core.isSampleGood(lists); }, "two lists");
-    expectRefused(
-        wrong, [&] { core.computeModel(lists, {0}, model); }, "two lists");
-    expectRefused(
-        wrong, [&] { core.optimize(lists, model); }, "two lists");
-    expectRefused(
-        wrong, [&] { multi.getSelectedDistancesToModel(model, lists, multiDistances); }, "two lists");
+    expectRefused(wrong, "two lists", [&] { core.join(lists); });
+    expectRefused(wrong, "two lists", [&] { core.drawSample(lists, false, random); });
+    expectRefused(wrong, "two lists", [&] { core.isSampleGood(lists); });
+    expectRefused(wrong, "two lists", [&] { core.computeModel(lists, {0}, model); });
+    expectRefused(wrong, "two lists", [&] { core.optimize(lists, model); });
+    expectRefused(wrong, "two lists", [&] { multi.getSelectedDistancesToModel(model, lists, multiDistances); });
   }
   for (const std::vector<std::vector<int>>& sizes :
        {std::vector<std::vector<int>>{{}, {}}, {{}, {0, 1, 2}}, {{0}, {0, 1}}, {{0, 1}, {0, 1, 2}}, {{0}, {0, 1, 2, 3}}}) {
-    expectRefused(
-        "sample size", [&] { core.isSampleGood(sizes); }, "sample");
-    expectRefused(
-        "sample size", [&] { core.computeModel(sizes, {0}, model); }, "sample");
+    expectRefused("sample size", "sample", [&] { core.isSampleGood(sizes); });
+    expectRefused("sample size", "sample", [&] { core.computeModel(sizes, {0}, model); });
   }
-  expectRefused(
-      "repeated",
-      [&] {
-        core.optimize({{0, 0}, {1}}, model);
-      },
-      "repeated");
+  expectRefused("repeated", "repeated", [&] { core.optimize({{0, 0}, {1}}, model); });
   // A repeated correspondence in a sample is a degenerate sample, which a loop may draw.
   EXPECT_FALSE(core.isSampleGood({{0}, {0, 1, 1}}));
   EXPECT_FALSE(core.computeModel({{0}, {0, 1, 1}}, {0}, model));
@@ -227,20 +176,10 @@ TEST(Misuse, NothingAgreesWithAModelThatIsNotFinite) {
     if (!wrong.pose.rotation.allFinite() || !wrong.pose.position.allFinite() || !std::isfinite(wrong.pose.focalLength)) {
       EXPECT_EQ(core.countWithin(wrong.pose, {0, 12}, 1), 0) << wrong.name;
     }
-    expectRefused(
-        wrong.name,
-        [&] {
-          core.optimize({{0}, {1}}, wrong.pose);
-        },
-        "model");
+    expectRefused(wrong.name, "model", [&] { core.optimize({{0}, {1}}, wrong.pose); });
   }
   for (const double value : {kNaN, -kInfinite, -1.0})
-    expectRefused(
-        std::to_string(value),
-        [&] {
-          core.countWithin(FocalPose(), {0, 12}, value);
-        },
-        "threshold");
+    expectRefused(std::to_string(value), "threshold", [&] { core.countWithin(FocalPose(), {0, 12}, value); });
 }
 
 }  // namespace

@@ -32,10 +32,8 @@ TEST(Misuse, RansacRefusesWrongOptions) {
       HybridRansacOptions options;
       row.set(options, value);
       const std::string wrong = row.option + (" = " + std::to_string(value));
-      expectRefused(
-          wrong, [&] { options.check(); }, row.option);
-      expectRefused(
-          wrong, [&] { sac::hybridRansac(adapter, options); }, row.option);
+      expectRefused(wrong, row.option, [&] { options.check(); });
+      expectRefused(wrong, row.option, [&] { sac::hybridRansac(adapter, options); });
     }
 }
 
@@ -43,21 +41,17 @@ TEST(Misuse, RansacRefusesWrongListsOfSolversAndWrongStarts) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   HybridRansacOptions options;
   options.solvers = {};
-  expectRefused(
-      "no solver", [&] { sac::hybridRansac(adapter, options); }, "solvers");
+  expectRefused("no solver", "solvers", [&] { sac::hybridRansac(adapter, options); });
   options.solvers = {{Solver::P4Pf, 1}, {Solver::H13f, 1}, {Solver::P4Pf, 2}};
-  expectRefused(
-      "repeated solver", [&] { sac::hybridRansac(adapter, options); }, "solvers");
+  expectRefused("repeated solver", "solvers", [&] { sac::hybridRansac(adapter, options); });
   for (const int value : {-1, 5, 1000}) {
     options.solvers = {{static_cast<Solver>(value), 1}};
-    expectRefused(
-        "solver " + std::to_string(value), [&] { sac::hybridRansac(adapter, options); }, "solver");
+    expectRefused("solver " + std::to_string(value), "solver", [&] { sac::hybridRansac(adapter, options); });
   }
   for (const WrongPose& wrong : wrongPoses()) {
     options = HybridRansacOptions();
     options.initialPose = wrong.pose;
-    expectRefused(
-        wrong.name, [&] { sac::hybridRansac(adapter, options); }, "initialPose");
+    expectRefused(wrong.name, "initialPose", [&] { sac::hybridRansac(adapter, options); });
   }
 }
 
@@ -77,8 +71,7 @@ TEST(Misuse, RansacRefusesNumbersThatAreNotFinite) {
   for (const WrongField& field : fields) {
     AlteredAdapter adapter;
     field.apply(adapter);
-    expectRefused(
-        field.name, [&] { sac::hybridRansac(adapter); }, field.getter);
+    expectRefused(field.name, field.getter, [&] { sac::hybridRansac(adapter); });
   }
 }
 
@@ -90,10 +83,8 @@ TEST(Misuse, RansacWithoutCorrespondencesHasAReason) {
 
 TEST(Misuse, UnknownReasonsAreRefused) {
   for (const int value : {-1, 1000}) {
-    expectRefused(
-        "failure", [&] { toString(static_cast<sac::FailureReason>(value)); }, "reason");
-    expectRefused(
-        "stop", [&] { toString(static_cast<sac::StopReason>(value)); }, "reason");
+    expectRefused("failure", "reason", [&] { toString(static_cast<sac::FailureReason>(value)); });
+    expectRefused("stop", "reason", [&] { toString(static_cast<sac::StopReason>(value)); });
   }
 }
 

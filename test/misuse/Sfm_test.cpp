@@ -19,24 +19,11 @@ std::vector<CameraModel> allModels() {
 }
 
 void expectCameraRefused(const std::string& wrong, const sfm::Camera& camera) {
-  expectRefused(
-      wrong, [&] { sfm::focalLength(camera); }, "camera");
-  expectRefused(
-      wrong, [&] { sfm::undistort(camera, 1, 2); }, "camera");
-  expectRefused(
-      wrong, [&] { sfm::bearingVector(camera, 1, 2); }, "camera");
-  expectRefused(
-      wrong,
-      [&] {
-        sfm::project(camera, {1, 2, 1});
-      },
-      "camera");
-  expectRefused(
-      wrong,
-      [&] {
-        sfm::distort(camera, {1, 2, 1});
-      },
-      "camera");
+  expectRefused(wrong, "camera", [&] { sfm::focalLength(camera); });
+  expectRefused(wrong, "camera", [&] { sfm::undistort(camera, 1, 2); });
+  expectRefused(wrong, "camera", [&] { sfm::bearingVector(camera, 1, 2); });
+  expectRefused(wrong, "camera", [&] { sfm::project(camera, {1, 2, 1}); });
+  expectRefused(wrong, "camera", [&] { sfm::distort(camera, {1, 2, 1}); });
 }
 
 TEST(Misuse, WrongCamerasAreRefused) {
@@ -60,39 +47,24 @@ TEST(Misuse, WrongCamerasAreRefused) {
       expectCameraRefused(name + ", focal length " + std::to_string(value), camera);
     }
     for (const double value : notFinite()) {
-      expectRefused(
-          name, [&] { sfm::bearingVector(good, value, 0); }, "(x, y)");
-      expectRefused(
-          name,
-          [&] {
-            sfm::project(good, {1, value, 1});
-          },
-          "point");
+      expectRefused(name, "(x, y)", [&] { sfm::bearingVector(good, value, 0); });
+      expectRefused(name, "point", [&] { sfm::project(good, {1, value, 1}); });
       if (!sfm::hasImagePlane(model)) continue;
-      expectRefused(
-          name, [&] { sfm::undistort(good, value, 0); }, "(x, y)");
-      expectRefused(
-          name, [&] { sfm::undistort(good, 0, value); }, "(x, y)");
+      expectRefused(name, "(x, y)", [&] { sfm::undistort(good, value, 0); });
+      expectRefused(name, "(x, y)", [&] { sfm::undistort(good, 0, value); });
       for (int k = 0; k < 3; ++k) {
         Eigen::Vector3d point(1, 2, 1);
         point[k] = value;
-        expectRefused(
-            name, [&] { sfm::distort(good, point); }, "imagePoint");
+        expectRefused(name, "imagePoint", [&] { sfm::distort(good, point); });
       }
     }
-    expectRefused(
-        name,
-        [&] {
-          sfm::distort(good, {1, 2, 0});
-        },
-        sfm::hasImagePlane(model) ? "imagePoint" : "camera");
+    expectRefused(name, sfm::hasImagePlane(model) ? "imagePoint" : "camera", [&] { sfm::distort(good, {1, 2, 0}); });
   }
   for (const int value : {-1, 18, 999, 1002}) {
     sfm::Camera camera = makeCamera(CameraModel::Radial);
     camera.model = static_cast<CameraModel>(value);
     expectCameraRefused("model " + std::to_string(value), camera);
-    expectRefused(
-        "model " + std::to_string(value), [&] { sfm::toString(static_cast<CameraModel>(value)); }, "model");
+    expectRefused("model " + std::to_string(value), "model", [&] { sfm::toString(static_cast<CameraModel>(value)); });
   }
 }
 
@@ -153,10 +125,8 @@ TEST(Misuse, WritersRefuseWrongModelsAndWriteNothing) {
     SparseModel model = good;
     wrong.change(model);
     const TemporaryFolder folder;
-    expectRefused(
-        wrong.name + ", text", [&] { sfm::writeColmapText(folder.path(), model); }, wrong.argument);
-    expectRefused(
-        wrong.name + ", binary", [&] { sfm::writeColmapBinary(folder.path(), model); }, wrong.argument);
+    expectRefused(wrong.name + ", text", wrong.argument, [&] { sfm::writeColmapText(folder.path(), model); });
+    expectRefused(wrong.name + ", binary", wrong.argument, [&] { sfm::writeColmapBinary(folder.path(), model); });
     EXPECT_THROW(sfm::readModel(folder.path()), sfm::FileError) << wrong.name;
   }
 }
@@ -164,21 +134,17 @@ TEST(Misuse, WritersRefuseWrongModelsAndWriteNothing) {
 TEST(Misuse, LocalizationProblemsRefuseWrongArguments) {
   const SparseModel good = goodModel();
   for (const std::size_t index : {good.images.size(), static_cast<std::size_t>(-1)})
-    expectRefused(
-        std::to_string(index), [&] { sfm::makeLocalizationProblem(good, index); }, "imageIndex");
+    expectRefused(std::to_string(index), "imageIndex", [&] { sfm::makeLocalizationProblem(good, index); });
   SparseModel unregistered = good;
   unregistered.images[0].registered = false;
-  expectRefused(
-      "not registered", [&] { sfm::makeLocalizationProblem(unregistered, 0); }, "imageIndex");
+  expectRefused("not registered", "imageIndex", [&] { sfm::makeLocalizationProblem(unregistered, 0); });
   for (const double value : {kNaN, kInfinite, -kInfinite, -1.0}) {
     sfm::LocalizationProblemOptions options;
     options.minParallaxDeg = value;
-    expectRefused(
-        std::to_string(value), [&] { sfm::makeLocalizationProblem(good, 0, options); }, "minParallaxDeg");
+    expectRefused(std::to_string(value), "minParallaxDeg", [&] { sfm::makeLocalizationProblem(good, 0, options); });
     options = {};
     options.maxMapReprojectionErrorPx = value;
-    expectRefused(
-        std::to_string(value), [&] { sfm::makeLocalizationProblem(good, 0, options); }, "maxMapReprojectionErrorPx");
+    expectRefused(std::to_string(value), "maxMapReprojectionErrorPx", [&] { sfm::makeLocalizationProblem(good, 0, options); });
   }
   for (const WrongModel& wrong : wrongModels()) {
     if (wrong.name.find("point") == 0 || wrong.name.find("error") == 0) continue;  // points are triangulated anew
@@ -200,8 +166,7 @@ TEST(Misuse, LocalizationProblemsRefuseWrongArguments) {
 TEST(Misuse, SharesOfOutliersOutside0To1AreRefused) {
   const sfm::LocalizationProblem problem = sfm::makeLocalizationProblem(goodModel(), 0);
   for (const double share : {kNaN, kInfinite, -kInfinite, -0.1, 1.1})
-    expectRefused(
-        std::to_string(share), [&] { sfm::injectOutliers(problem, share, 1); }, "share");
+    expectRefused(std::to_string(share), "share", [&] { sfm::injectOutliers(problem, share, 1); });
 }
 
 TEST(Misuse, FilesThatAreNotThereAreNamed) {

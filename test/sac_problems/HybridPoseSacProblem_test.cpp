@@ -12,6 +12,7 @@
 
 #include "FocalPoseNear.hpp"
 #include "damage.hpp"
+#include "expectRefused.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 #include "hybridgv/sac_problems/hybrid_pose/MultiHybridPoseSacProblem.hpp"
@@ -292,15 +293,6 @@ TEST_F(SacProblem, AdapterIsNotNeededAfterConstruction) {
   EXPECT_TRUE(test::isFocalPoseNear(refined, data_.truth, 1e-6));
 }
 
-void expectInvalid(const std::string& argument, const std::function<void()>& call) {
-  try {
-    call();
-    ADD_FAILURE() << "no exception for " << argument;
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find(argument), std::string::npos) << error.what();
-  }
-}
-
 TEST_F(SacProblem, TooFewCorrespondencesAreAWrongCall) {
   const auto construct = [this](const std::vector<int>& rays, int points, Solver solver) {
     const NoncentralHybridAdapter adapter = test::makeAdapter(test::makeMinimalProblem(random_, rays, points));
@@ -311,30 +303,30 @@ TEST_F(SacProblem, TooFewCorrespondencesAreAWrongCall) {
   construct({1}, 3, Solver::H13f);
   construct({2, 1}, 2, Solver::H32f);
   construct({2, 3}, 1, Solver::H51f);
-  expectInvalid("3 2D-3D correspondences, p4pf needs 4", [&] { construct({9}, 3, Solver::P4Pf); });
-  expectInvalid("3 2D-3D correspondences, p35pf needs 4", [&] { construct({9}, 3, Solver::P35Pf); });
-  expectInvalid("0 2D-2D correspondences, h13f needs 1", [&] { construct({}, 9, Solver::H13f); });
-  expectInvalid("2 2D-3D correspondences, h13f needs 3", [&] { construct({9}, 2, Solver::H13f); });
-  expectInvalid("2 2D-2D correspondences, h32f needs 3", [&] { construct({2}, 9, Solver::H32f); });
-  expectInvalid("1 2D-3D correspondences, h32f needs 2", [&] { construct({9}, 1, Solver::H32f); });
-  expectInvalid("4 2D-2D correspondences, h51f needs 5", [&] { construct({4}, 9, Solver::H51f); });
-  expectInvalid("0 2D-3D correspondences, h51f needs 1", [&] { construct({9}, 0, Solver::H51f); });
+  test::expectRefused("3 2D-3D correspondences, p4pf needs 4", [&] { construct({9}, 3, Solver::P4Pf); });
+  test::expectRefused("3 2D-3D correspondences, p35pf needs 4", [&] { construct({9}, 3, Solver::P35Pf); });
+  test::expectRefused("0 2D-2D correspondences, h13f needs 1", [&] { construct({}, 9, Solver::H13f); });
+  test::expectRefused("2 2D-3D correspondences, h13f needs 3", [&] { construct({9}, 2, Solver::H13f); });
+  test::expectRefused("2 2D-2D correspondences, h32f needs 3", [&] { construct({2}, 9, Solver::H32f); });
+  test::expectRefused("1 2D-3D correspondences, h32f needs 2", [&] { construct({9}, 1, Solver::H32f); });
+  test::expectRefused("4 2D-2D correspondences, h51f needs 5", [&] { construct({4}, 9, Solver::H51f); });
+  test::expectRefused("0 2D-3D correspondences, h51f needs 1", [&] { construct({9}, 0, Solver::H51f); });
 }
 
 TEST_F(SacProblem, WrongThresholdsAndIndicesAreNamed) {
   for (double wrong : {0., -1., std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    expectInvalid("maxReprojectionErrorPx", [&] { HybridPoseSacProblem(adapter_, Solver::H13f, wrong, 1); });
-    expectInvalid("maxEpipolarErrorPx", [&] { MultiHybridPoseSacProblem(adapter_, Solver::H13f, 1, wrong); });
+    test::expectRefused("maxReprojectionErrorPx", [&] { HybridPoseSacProblem(adapter_, Solver::H13f, wrong, 1); });
+    test::expectRefused("maxEpipolarErrorPx", [&] { MultiHybridPoseSacProblem(adapter_, Solver::H13f, 1, wrong); });
   }
   HybridPoseSacProblem problem = flat(Solver::H13f);
   FocalPose model;
   std::vector<double> distances;
-  expectInvalid("index 44", [&] { problem.getSelectedDistancesToModel(model, {44}, distances); });
-  expectInvalid("index -1", [&] { problem.getSelectedDistancesToModel(model, {-1}, distances); });
-  expectInvalid("got 2 and 2", [&] { problem.computeModelCoefficients({0, 1, 24, 25}, model); });
+  test::expectRefused("index 44", [&] { problem.getSelectedDistancesToModel(model, {44}, distances); });
+  test::expectRefused("index -1", [&] { problem.getSelectedDistancesToModel(model, {-1}, distances); });
+  test::expectRefused("got 2 and 2", [&] { problem.computeModelCoefficients({0, 1, 24, 25}, model); });
   MultiHybridPoseSacProblem multiProblem = multi(Solver::H13f);
-  expectInvalid("index 20", [&] { multiProblem.computeModelCoefficients({{0}, {1, 2, 20}}, model); });
-  expectInvalid("needs two lists", [&] { multiProblem.isSampleGood({{0}}); });
+  test::expectRefused("index 20", [&] { multiProblem.computeModelCoefficients({{0}, {1, 2, 20}}, model); });
+  test::expectRefused("needs two lists", [&] { multiProblem.isSampleGood({{0}}); });
 }
 
 // An adapter of the user's own may hold anything.
@@ -349,7 +341,7 @@ class BrokenAdapter : public NoncentralHybridAdapter {
 
 TEST_F(SacProblem, BearingVectorThatIsNotANumberIsNamed) {
   const BrokenAdapter broken(adapter_);
-  expectInvalid("getBearingVector(3)", [&] { HybridPoseSacProblem(broken, Solver::H13f, 1, 1); });
+  test::expectRefused("getBearingVector(3)", [&] { HybridPoseSacProblem(broken, Solver::H13f, 1, 1); });
 }
 
 }  // namespace

@@ -285,7 +285,8 @@ TEST_P(Outliers, AreTheShareAskedForAndNoneKeepsItsImagePoint) {
   for (std::size_t i = 0; i < problem.points2d3d.size(); ++i) EXPECT_EQ(problem.adapter.getPoint(i), damaged.adapter.getPoint(i));
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, Outliers, ::testing::Values(0.0, 0.05, 0.3, 0.5, 1.0));
+INSTANTIATE_TEST_SUITE_P(Shares, Outliers, ::testing::Values(0.0, 0.05, 0.3, 0.5, 1.0),
+                         [](const auto& info) { return std::to_string(std::lround(100 * info.param)) + "Percent"; });
 
 // The image points are permuted, none is lost or doubled.
 TEST(InjectOutliers, Permutes) {

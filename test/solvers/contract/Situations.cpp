@@ -39,6 +39,12 @@ static std::vector<Situation> makeSituations() {
     list.push_back({name, outcomes, &keepScene, change});
   };
 
+  // A letter for each solver (see Situation::outcomes), in groups:
+  //
+  //   ttt             p4pf, p35pf, h13f
+  //       ttt         h32f with the rays of 1+1+1, 2+1, 3 to a camera
+  //           tttttt         h51f with 1+1+1+1+1, 2+1+1+1, 2+2+1, 3+1+1, 3+2, 4+1
+  //                  tt      h51f with 5, sixpt_onefocal
   addScene("all_scene_points_coplanar", "ttt ttt tttttt 00", [](SituationScene& scene, Random& random) {
     const Vector3d normal = random.direction();
     for (Vector3d& point : scene.scenePoints) point -= normal * normal.dot(point);
