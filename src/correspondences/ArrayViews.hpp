@@ -10,6 +10,20 @@ namespace correspondences {
 // Arrays are padded to a multiple of this many entries, with entries that have an infinite error.
 constexpr std::size_t kPadding = 8;
 
+// Numbers padded like the columns, or null. Nothing but PaddedValues makes one that is not null, so that the kernels may read whole
+// vectors. Always inline, for the same reason.
+class PaddedPointer {
+ public:
+  PaddedPointer() = default;
+  __attribute__((always_inline)) explicit operator bool() const { return values_ != nullptr; }
+  __attribute__((always_inline)) const double* operator+(std::size_t i) const { return values_ + i; }
+
+ private:
+  friend class PaddedValues;
+  explicit PaddedPointer(const double* values) : values_(values) {}
+  const double* values_ = nullptr;
+};
+
 // 2D-3D correspondences: image point (u, v), rig point (x, y, z).
 struct PointArrays {
   std::size_t size = 0;  // without the padding
@@ -24,7 +38,7 @@ struct RayArrays {
   std::size_t size = 0;
   double leastFocalLength = 0;
   const double *u, *v, *cx, *cy, *cz, *dx, *dy, *dz, *ax, *ay, *az, *squaredPixel, *isUnknown;
-  const double* narrowing = nullptr;
+  PaddedPointer narrowing = {};
 };
 
 }  // namespace correspondences

@@ -15,6 +15,9 @@ namespace {
 
 // Batches grow, because what was learnt from one steers the next: to 128 samples, then with a quarter of all before.
 constexpr int kFirstBatch = 16, kLargestBatch = 128, kLargestPart = 4;
+
+int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / kLargestPart); }
+
 // Streams of random numbers apart from those of the hypotheses.
 constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
 // log10 of the expected number of wrong poses that look like the result.
@@ -83,13 +86,15 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       scorer_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
       chance_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
       optimizer_(scorer_, chance_, options.minFocalLength, options.maxFocalLength),
-      workers_(options.threads),
-      solutions_(workers_.size()) {}
+      workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
+      workerStates_(workers_.size()) {
+  for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
+}
 
 void HybridSearch::run() {
   if (options_.initialPose) tryInitialPose();
   if (choice_.strategies().empty()) return;
-  for (int batch = kFirstBatch; !isDone(); batch = std::min(2 * batch, std::max(kLargestBatch, iterations_ / kLargestPart)))
+  for (int batch = kFirstBatch; !isDone(); batch = std::min(2 * batch, largestBatch(iterations_)))
     tryBatch(std::min(batch, options_.maxIterations - iterations_));
 }
 
@@ -101,64 +106,67 @@ void HybridSearch::tryInitialPose() {
 }
 
 void HybridSearch::tryBatch(int count) {
-  std::vector<Attempt> attempts(static_cast<std::size_t>(count));
-  workers_.forEach(count, [&](int i, std::size_t worker) {
-    if (!isOutOfTime()) attempts[static_cast<std::size_t>(i)] = tryHypothesis(iterations_ + i + 1, solutions_[worker]);
-  });
-  const Attempt* candidate = &attempts.front();
-  for (const Attempt& attempt : attempts) {
-    if (!attempt.tried) continue;
-    ++iterations_;
-    choice_.addDraws(attempt.strategy, 1);
-    if (attempt.isLessLikelyChance(*candidate)) candidate = &attempt;
+  for (WorkerState& worker : workerStates_) {
+    std::fill(worker.draws.begin(), worker.draws.end(), 0);
+    worker.best.reset();
   }
-  if (isWorthConsidering(*candidate)) consider(candidate->model);
+  workers_.forEach(count, [&](int i, std::size_t worker) {
+    if (!isOutOfTime()) tryHypothesis(iterations_ + i + 1, workerStates_[worker]);
+  });
+  std::optional<Candidate> best;
+  for (const WorkerState& worker : workerStates_) {
+    iterations_ += std::accumulate(worker.draws.begin(), worker.draws.end(), 0);
+    for (std::size_t s = 0; s < worker.draws.size(); ++s) choice_.addDraws(s, worker.draws[s]);
+    if (worker.best && (!best || worker.best->isLessLikelyChance(*best))) best = worker.best;
+  }
+  if (best && isWorthConsidering(*best)) consider(best->model);
 }
 
 // Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one kind can
 // be much less of an accident than one of the other.
-bool HybridSearch::Attempt::isLessLikelyChance(const Attempt& other) const {
+bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
   if (logChance != other.logChance) return logChance < other.logChance;
-  return model.evaluation.score > other.model.evaluation.score;
+  if (model.evaluation.score != other.model.evaluation.score) return model.evaluation.score > other.model.evaluation.score;
+  return number < other.number;
 }
 
 // If less than one wrong pose of those tried so far is expected to look as good; or if it is the best so far, as long as no
 // better one is known.
-bool HybridSearch::isWorthConsidering(const Attempt& candidate) {
+bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   if (candidate.logChance + logTests() < 0) return true;
-  if (bestIsSignificant_ || !candidate.isLessLikelyChance(bestCandidate_)) return false;
+  if (bestIsSignificant_ || (bestCandidate_ && !candidate.isLessLikelyChance(*bestCandidate_))) return false;
   bestCandidate_ = candidate;
   return true;
 }
 
-HybridSearch::Attempt HybridSearch::tryHypothesis(int number, Solutions& solutions) const {
+void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   RandomStream random(options_.seed, static_cast<std::uint64_t>(number));
-  Attempt attempt;
-  attempt.tried = true;
-  attempt.strategy = choice_.choose(random.uniform());
-  const Strategy& strategy = choice_.strategies()[attempt.strategy];
+  const std::size_t chosen = choice_.choose(random.uniform());
+  ++worker.draws[chosen];
+  const Strategy& strategy = choice_.strategies()[chosen];
   const Sample sample = sampler_.draw(strategy.size, number, random);
 
   correspondences::RayMatch rays[kMaxSampleSize];
   correspondences::PointMatch points[kMaxSampleSize];
   for (int k = 0; k < strategy.size.rays; ++k) rays[k] = arrays_.rays()[static_cast<std::size_t>(sample.rays[k])];
   for (int k = 0; k < strategy.size.points; ++k) points[k] = arrays_.points()[static_cast<std::size_t>(sample.points[k])];
-  if (isDegenerate(rays, strategy.size.rays, points, strategy.size.points)) return attempt;
+  if (isDegenerate(rays, strategy.size.rays, points, strategy.size.points)) return;
 
-  const int found = strategy.solve(rays, points, solutions.data());
-  attempt.model.solver = strategy.solver;
-  for (int k = 0; k < found; ++k) considerSolution(solutions[static_cast<std::size_t>(k)], attempt);
-  return attempt;
+  const int found = strategy.solve(rays, points, worker.solutions.data());
+  for (int k = 0; k < found; ++k)
+    considerSolution(worker.solutions[static_cast<std::size_t>(k)], strategy.solver, number, worker.best);
 }
 
-void HybridSearch::considerSolution(const FocalPose& pose, Attempt& attempt) const {
+void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const {
   if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
-  Attempt candidate = attempt;
+  Candidate candidate;
+  candidate.number = number;
+  candidate.model.solver = solver;
   candidate.model.pose = pose;
   candidate.model.evaluation = scorer_.evaluate(pose, expectation_);
   if (!candidate.model.evaluation.complete) return;
   candidate.logChance = logChance(candidate.model);
-  if (candidate.isLessLikelyChance(attempt)) attempt = candidate;
+  if (!best || candidate.isLessLikelyChance(*best)) best = candidate;
 }
 
 void HybridSearch::consider(const Model& candidate) {

@@ -52,26 +52,31 @@ class HybridSearch {
   sac::StopReason stopReason() const { return stopReason_; }
 
  private:
-  // What a hypothesis came to: its best solution, if that can matter.
-  struct Attempt {
-    bool isLessLikelyChance(const Attempt& other) const;
+  // A solution that competes with others by how unlikely it is to be chance.
+  struct Candidate {
+    // Of equally good ones the earlier is better, so that the best of many does not depend on the order in which they are compared.
+    bool isLessLikelyChance(const Candidate& other) const;
 
-    std::size_t strategy = 0;
-    bool tried = false;
     Model model;
     double logChance = 0;
+    int number = 0;  // of the hypothesis
   };
-  using Solutions = std::array<FocalPose, solvers::kMaxSolutions>;
+  // What one worker found in a batch. Nothing is kept of the other hypotheses: their number has no bound.
+  struct WorkerState {
+    std::array<FocalPose, solvers::kMaxSolutions> solutions;  // scratch
+    std::vector<int> draws;                                   // per strategy
+    std::optional<Candidate> best;
+  };
 
   void tryInitialPose();
   void tryBatch(int count);
-  Attempt tryHypothesis(int number, Solutions& solutions) const;
-  void considerSolution(const FocalPose& pose, Attempt& attempt) const;
+  void tryHypothesis(int number, WorkerState& worker) const;
+  void considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const;
   void consider(const Model& candidate);
   void replaceIfLikelier(const FocalPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
   void setBest(const Model& model);
-  bool isWorthConsidering(const Attempt& candidate);
+  bool isWorthConsidering(const Candidate& candidate);
   // log10 of the probability that a wrong pose looks as good, and of the number of poses tried so far.
   double logChance(const Model& model) const;
   double logTests() const;
@@ -91,10 +96,10 @@ class HybridSearch {
   ChanceModel chance_;
   LocalOptimizer optimizer_;
   WorkerPool workers_;
-  std::vector<Solutions> solutions_;  // one scratch buffer per worker
+  std::vector<WorkerState> workerStates_;
 
   Model best_;
-  Attempt bestCandidate_;
+  std::optional<Candidate> bestCandidate_;
   bool bestIsSignificant_ = false;
   Expectation expectation_;
   int iterations_ = 0, localOptimizations_ = 0;

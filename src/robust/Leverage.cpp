@@ -1,6 +1,7 @@
 #include "robust/Leverage.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "robust/toPlain.hpp"
 
@@ -22,11 +23,10 @@ std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const Focal
   return leverages;
 }
 
-std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose) {
+correspondences::PaddedValues narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose) {
   std::vector<double> result = rayLeverages(problem, pose);
   for (double& value : result) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
-  result.resize(correspondences::padded(problem.rays.size), 1);
-  return result;
+  return {std::move(result), 1};
 }
 
 }  // namespace robust

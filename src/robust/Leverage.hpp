@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "correspondences/PaddedValues.hpp"
 #include "robust/LeastSquares.hpp"
 
 namespace hybridgv {
@@ -17,7 +18,7 @@ std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const Focal
 //
 // A ray whose viewing rays meet close to the cameras moves fast with the pose: it has a long lever. A wrong one of that kind soon
 // agrees by chance with a pose near the right one, and then holds it there, with an error that looks small.
-std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose);
+correspondences::PaddedValues narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose);
 
 }  // namespace robust
 }  // namespace hybridgv

@@ -11,6 +11,8 @@ namespace hybridgv {
 namespace robust {
 namespace {
 
+using correspondences::PaddedValues;
+
 // Median of the square of one and of the sum of the squares of two standard normal variables.
 constexpr double kMedianOne = 0.4549364231195728, kMedianTwo = 1.3862943611198906;
 // Errors of exact data are rounding: a deviation below this share of the threshold is not measured.
@@ -61,9 +63,9 @@ double deviation(const Measured& kind, const Measured& other) {
 KindLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
 KindLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
 
-// The narrowing must outlive the problem; empty means none.
-LeastSquaresProblem narrowed(LeastSquaresProblem problem, const std::vector<double>& narrowing) {
-  problem.rays.narrowing = narrowing.empty() ? nullptr : narrowing.data();
+// The narrowing must outlive the problem.
+LeastSquaresProblem narrowed(LeastSquaresProblem problem, const PaddedValues& narrowing) {
+  problem.rays.narrowing = narrowing.pointer();
   return problem;
 }
 
@@ -110,9 +112,9 @@ FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Kinds& kinds, 
 }
 
 FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps,
-                                        std::vector<double>& narrowing) const {
+                                        PaddedValues& narrowing) const {
   FocalPose pose = start;
-  narrowing.clear();
+  narrowing = PaddedValues();
   for (int round = 0; round < rounds; ++round) {
     const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
     const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
@@ -193,7 +195,7 @@ double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
 FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   FinalPose result;
   const Kinds kinds = moreThanChance(start);
-  std::vector<double> narrowing;
+  PaddedValues narrowing;
   constexpr Steps kFine{20, 1e-8};
   result.pose = optimize ? withoutLevers(likeliest(start, kinds, 1, kFine), kinds, 3, kFine, narrowing) : start;
   // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.

@@ -1,6 +1,7 @@
 // Local optimization of a pose over the inliers of both kinds.
 #pragma once
 
+#include "correspondences/PaddedValues.hpp"
 #include "robust/ChanceModel.hpp"
 #include "robust/ErrorMixture.hpp"
 #include "robust/LeastSquares.hpp"
@@ -63,7 +64,7 @@ class LocalOptimizer {
   FocalPose likeliest(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
   // The same with narrowed losses of the rays, which are returned (see RayArrays; empty without rounds).
   FocalPose withoutLevers(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps,
-                          std::vector<double>& narrowing) const;
+                          correspondences::PaddedValues& narrowing) const;
   LeastSquaresOptions limits(const Steps& steps) const;
   LeastSquaresProblem problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const;
 

@@ -1,13 +1,33 @@
 #include "robust/WorkerPool.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hybridgv {
 namespace robust {
+namespace {
 
-WorkerPool::WorkerPool(int threads) {
-  const int wanted = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  for (int i = 1; i < wanted; ++i) workers_.emplace_back([this, i] { work(static_cast<std::size_t>(i)); });
+constexpr int kMostPerCore = 4;
+
+std::thread startThread(std::function<void()> function) { return std::thread(std::move(function)); }
+
+}  // namespace
+
+std::size_t numberOfWorkers(int threads, int mostTasks) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int wished = threads > 0 ? threads : cores;
+  return static_cast<std::size_t>(std::max(1, std::min({wished, kMostPerCore * cores, mostTasks})));
+}
+
+WorkerPool::WorkerPool(std::size_t workers) : WorkerPool(workers, &startThread) {}
+
+WorkerPool::WorkerPool(std::size_t workers, const StartThread& startThread) {
+  threads_.reserve(workers - 1);  // nothing but the start of a thread may fail while threads wait
+  try {
+    for (std::size_t worker = 1; worker < workers; ++worker) threads_.push_back(startThread([this, worker] { work(worker); }));
+  } catch (const std::exception&) {
+    // The system gives no more threads: those there are do the work, with the same results.
+  }
 }
 
 WorkerPool::~WorkerPool() {
@@ -16,28 +36,51 @@ WorkerPool::~WorkerPool() {
     stop_ = true;
   }
   start_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
+  for (std::thread& thread : threads_) thread.join();
 }
 
 void WorkerPool::forEach(int count, const Body& body) {
-  if (workers_.empty()) {
-    for (int i = 0; i < count; ++i) body(i, 0);
-    return;
-  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    body_ = &body, count_ = count, next_ = 0;
-    busy_ = static_cast<int>(workers_.size());
+    body_ = &body;
+    count_ = count;
+    next_ = 0;
+    busy_ = static_cast<int>(threads_.size());
     ++round_;
   }
   start_.notify_all();
   takeAll(0);
-  std::unique_lock<std::mutex> lock(mutex_);
-  done_.wait(lock, [this] { return busy_ == 0; });
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    done_.wait(lock, [this] { return busy_ == 0; });
+  }
+  throwKeptException();
 }
 
 void WorkerPool::takeAll(std::size_t worker) {
-  for (int i = next_++; i < count_; i = next_++) (*body_)(i, worker);
+  for (int i = next_++; i < count_; i = next_++) {
+    try {
+      (*body_)(i, worker);
+    } catch (...) {
+      keepException(i);
+      next_ = count_;
+    }
+  }
+}
+
+// Indices are taken in increasing order: whichever fails first, all smaller ones are under way. So the least one that throws does
+// not depend on the threads.
+void WorkerPool::keepException(int i) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (exception_ && exceptionIndex_ < i) return;
+  exception_ = std::current_exception();
+  exceptionIndex_ = i;
+}
+
+void WorkerPool::throwKeptException() {
+  if (!exception_) return;
+  const std::exception_ptr exception = std::exchange(exception_, nullptr);
+  std::rethrow_exception(exception);
 }
 
 void WorkerPool::work(std::size_t worker) {

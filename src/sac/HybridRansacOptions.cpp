@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "CheckArguments.hpp"
@@ -9,6 +11,12 @@ namespace sac {
 
 static void require(bool holds, const char* name, double value, const char* expected) {
   if (!holds) throwInvalid(std::string("options.") + name, "must be " + std::string(expected) + ", is " + std::to_string(value));
+}
+
+template <class Enumeration>
+static void requireListed(std::initializer_list<Enumeration> values, const char* name, Enumeration value) {
+  if (std::find(values.begin(), values.end(), value) == values.end())
+    throwInvalid(std::string("options.") + name, "no such value: " + std::to_string(static_cast<int>(value)));
 }
 
 void HybridRansacOptions::check() const {
@@ -30,7 +38,13 @@ void HybridRansacOptions::check() const {
     for (auto other = solvers.begin(); other != entry; ++other)
       if (other->solver == entry->solver)
         throwInvalid("options.solvers", std::string(hybridgv::toString(entry->solver)) + " is listed twice");
-  if (initialPose) checkPose("options.initialPose", *initialPose);
+  requireListed({Scoring::Msac, Scoring::InlierCount}, "scoring", scoring);
+  requireListed({Sampling::Uniform, Sampling::QualityOrdered}, "sampling", sampling);
+  if (!initialPose) return;
+  checkPose("options.initialPose", *initialPose);
+  const double focalLength = initialPose->focalLength;
+  require(focalLength >= minFocalLength && focalLength <= maxFocalLength, "initialPose: its focal length", focalLength,
+          "between minFocalLength and maxFocalLength");
 }
 
 const char* toString(FailureReason reason) {

@@ -55,6 +55,37 @@ TEST(Misuse, RansacRefusesWrongListsOfSolversAndWrongStarts) {
   }
 }
 
+TEST(Misuse, RansacRefusesValuesThatNoEnumerationHas) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  for (const int value : {-1, 2, 1000}) {
+    HybridRansacOptions options;
+    options.scoring = static_cast<sac::Scoring>(value);
+    expectRefused(
+        "scoring " + std::to_string(value), [&] { sac::hybridRansac(adapter, options); }, "scoring");
+    options = HybridRansacOptions();
+    options.sampling = static_cast<sac::Sampling>(value);
+    expectRefused(
+        "sampling " + std::to_string(value), [&] { sac::hybridRansac(adapter, options); }, "sampling");
+  }
+}
+
+TEST(Misuse, RansacRefusesAStartOutsideTheFocalBounds) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  HybridRansacOptions options;
+  options.minFocalLength = 500;
+  options.maxFocalLength = 1000;
+  options.initialPose = FocalPose();
+  for (const double focalLength : {499.0, 1001.0}) {
+    options.initialPose->focalLength = focalLength;
+    expectRefused(
+        "start with focal length " + std::to_string(focalLength), [&] { sac::hybridRansac(adapter, options); }, "initialPose");
+  }
+  for (const double focalLength : {500.0, 1000.0}) {
+    options.initialPose->focalLength = focalLength;
+    EXPECT_NO_THROW(options.check());
+  }
+}
+
 TEST(Misuse, RansacRefusesNumbersThatAreNotFinite) {
   std::vector<WrongField> fields = wrongRayFields();
   const std::vector<WrongField> ofPoints = wrongPointFields();

@@ -9,6 +9,7 @@
 
 #include "HybridScene.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
+#include "correspondences/PaddedValues.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 
 namespace hybridgv {
@@ -133,7 +134,7 @@ TEST(Kernels, APoseThatIsNotANumberHasNoInliers) {
 constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Mixture};
 
 NormalEquations sums(SimdLevel level, const Data& data, const FocalPose& normalized, const KindLoss& loss, bool points, bool rays,
-                     const double* narrowing = nullptr) {
+                     correspondences::PaddedPointer narrowing = {}) {
   NormalEquations result;
   if (points) kernels(level).addPoints(data.arrays.pointArrays(), toPlain(normalized), loss, result);
   RayArrays rayArrays = data.arrays.rayArrays();
@@ -199,8 +200,9 @@ TEST(Kernels, GradientsAreTheCentralDifferencesOfTheCostAtEveryLevel) {
 TEST(Kernels, ANarrowedLossIsNarrowerWithTheSameCurvatureAtEveryLevel) {
   test::Random random(test::testSeed(), 17);
   const Data data(random, 61, 4);
-  std::vector<double> narrowing(64, 1);
-  for (std::size_t i = 0; i < 61; ++i) narrowing[i] = random.uniform(1, 50);
+  std::vector<double> values(61);
+  for (double& value : values) value = random.uniform(1, 50);
+  const correspondences::PaddedValues narrowing(values, 1);
   const FocalPose pose = data.arrays.normalization().apply(data.poses[0]);
   for (const Loss loss : kLosses)
     for (const SimdLevel level : levels()) {
@@ -208,12 +210,12 @@ TEST(Kernels, ANarrowedLossIsNarrowerWithTheSameCurvatureAtEveryLevel) {
       double cost = 0;
       for (std::size_t i = 0; i < data.scene.bearings.size(); ++i)
         cost += expectedCost(data.sampson(data.poses[0], i), spec, narrowing[i]);
-      const NormalEquations at = sums(level, data, pose, spec, false, true, narrowing.data());
+      const NormalEquations at = sums(level, data, pose, spec, false, true, narrowing.pointer());
       EXPECT_NEAR(at.cost, cost, 1e-8 * cost);
       for (int i = 0; i < kParameters; ++i) {
         const double h = 1e-6;
-        const double difference = (sums(level, data, moved(pose, i, h), spec, false, true, narrowing.data()).cost -
-                                   sums(level, data, moved(pose, i, -h), spec, false, true, narrowing.data()).cost) /
+        const double difference = (sums(level, data, moved(pose, i, h), spec, false, true, narrowing.pointer()).cost -
+                                   sums(level, data, moved(pose, i, -h), spec, false, true, narrowing.pointer()).cost) /
                                   (2 * h);
         EXPECT_NEAR(2 * at.gradient[i], difference, 1e-5 * (1 + std::abs(difference)) + 1e-13 * at.cost / h);
       }

@@ -72,8 +72,9 @@ TEST(Leverage, IsZeroWhereTheDataDoNotFixThePose) {
   const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
   const LeastSquaresProblem problem = makeProblem(arrays, kUnitNoise, kUnitNoise);
   EXPECT_EQ(rayLeverages(problem, arrays.normalization().apply(scene.truth)), std::vector<double>(3, 0));
-  const std::vector<double> narrowing = narrowingByLeverage(problem, arrays.normalization().apply(scene.truth));
-  EXPECT_EQ(narrowing, std::vector<double>(correspondences::kPadding, 1));
+  const correspondences::PaddedValues narrowing = narrowingByLeverage(problem, arrays.normalization().apply(scene.truth));
+  EXPECT_EQ(narrowing.size(), 3u);
+  for (std::size_t i = 0; i < correspondences::kPadding; ++i) EXPECT_EQ(*(narrowing.pointer() + i), 1);
 }
 
 TEST(Leverage, NarrowsTheLossOfNoRayWithoutEnd) {
@@ -81,8 +82,9 @@ TEST(Leverage, NarrowsTheLossOfNoRayWithoutEnd) {
   const test::HybridScene scene = makeScene(random, 7, 0);  // every ray fixes a direction: leverage 1
   const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
   const LeastSquaresProblem problem = makeProblem(arrays, kUnitNoise, kUnitNoise);
-  for (const double narrowing : narrowingByLeverage(problem, arrays.normalization().apply(scene.truth)))
-    EXPECT_TRUE(narrowing >= 1 && narrowing < 101) << narrowing;
+  const correspondences::PaddedValues narrowing = narrowingByLeverage(problem, arrays.normalization().apply(scene.truth));
+  ASSERT_EQ(narrowing.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_TRUE(narrowing[i] >= 1 && narrowing[i] < 101) << narrowing[i];
 }
 
 // The pose with the conditional mean of all parameters, given that the focal length is wrong by some standard deviations.

@@ -2,13 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <numeric>
 
 #include "HybridScene.hpp"
 #include "robust/SampleCheck.hpp"
-#include "robust/WorkerPool.hpp"
 
 namespace hybridgv {
 namespace {
@@ -81,20 +79,6 @@ TEST(PoseScorer, SequentialTestKeepsGoodPosesAndGivesUpChanceOnesEarly) {
   }
   EXPECT_GE(goodKept, count * (1 - 2 * kFalseRejection));
   EXPECT_LE(badKept, 0.05 * count);
-}
-
-TEST(WorkerPool, EveryIndexIsTakenOnceWhateverTheNumberOfThreads) {
-  for (const int threads : {0, 1, 2, 5}) {
-    WorkerPool pool(threads);
-    for (const int count : {0, 1, 3, 1000}) {
-      std::vector<std::atomic<int>> taken(static_cast<std::size_t>(count));
-      pool.forEach(count, [&](int i, std::size_t worker) {
-        EXPECT_LT(worker, pool.size());
-        ++taken[static_cast<std::size_t>(i)];
-      });
-      for (const auto& times : taken) EXPECT_EQ(times, 1);
-    }
-  }
 }
 
 TEST(SampleCheck, RecognisesDegenerateSamples) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -280,7 +281,7 @@ TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
   options.seed = 5;
   const HybridRansacResult one = hybridRansac(adapter, options);
   expectEqual(one, hybridRansac(adapter, options));
-  for (const int threads : {0, 2, 3, 8}) {
+  for (const int threads : {0, 2, 3, 8, std::numeric_limits<int>::max()}) {
     options.threads = threads;
     expectEqual(one, hybridRansac(adapter, options));
   }

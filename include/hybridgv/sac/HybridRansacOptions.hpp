@@ -55,12 +55,15 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
   bool localOptimization = true;  ///< optimize promising models over both kinds; the likeliest is kept, the noise being estimated
   bool finalOptimization = true;  ///< optimize the result's likelihood to full precision
-  /// A pose to start from, scored before the first sample. It competes on its score alone, so a wrong one does no harm.
+  /// A pose to start from, scored before the first sample. It competes on its score alone, so a wrong one does no harm. Its focal
+  /// length must be from minFocalLength to maxFocalLength.
   std::optional<FocalPose> initialPose;
 
   /// Everything random is derived from it: equal seeds give bit-identical results, for any number of threads.
   std::uint64_t seed = 0;
-  int threads = 1;  ///< hypotheses tried in parallel; 0 = one per processor core
+  /// Hypotheses tried in parallel; 0 = one per processor core. More than four per core are not started, and where the system
+  /// gives fewer threads, those there are do the work.
+  int threads = 1;
 
   /// \throws std::invalid_argument that names the option and its value
   void check() const;
