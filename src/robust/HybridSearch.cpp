@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string>
 
-#include "CheckArguments.hpp"
 #include "robust/SampleCheck.hpp"
 
 namespace hybridgv {
@@ -18,59 +16,11 @@ constexpr int kFirstBatch = 16, kLargestBatch = 128, kLargestPart = 4;
 
 int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / kLargestPart); }
 
-// Streams of random numbers apart from those of the hypotheses.
-constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
-// log10 of the expected number of wrong poses that look like the result.
-constexpr double kLogFalseAlarms = -6;
-// The same without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
-// every way, and up to half of them are inliers there.
-constexpr double kLogFalseAlarmsOfRays = -25;
 // Gain of the log-likelihood for which an optimization is repeated.
 constexpr double kLeastGain = 1;
 constexpr double kDistanceFactors[] = {1.25, 1.6, 0.8, 0.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
-
-// The indices 0 .. count-1 in random order.
-std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t stream) {
-  std::vector<int> order = correspondences::allIndices(count);
-  RandomStream random(seed, stream);
-  for (std::size_t i = count; i > 1; --i)
-    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
-  return order;
-}
-
-// Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
-template <class Weight>
-std::vector<int> byQuality(const char* name, const std::vector<int>& indices, Weight weight) {
-  std::vector<int> order = correspondences::allIndices(indices.size());
-  const auto weightOf = [&](int i) { return weight(static_cast<std::size_t>(indices[static_cast<std::size_t>(i)])); };
-  for (const int i : order)
-    if (!std::isfinite(weightOf(i)))
-      throwInvalid("adapter." + std::string(name) + "(" + std::to_string(indices[static_cast<std::size_t>(i)]) + ")",
-                   "must be finite, is " + std::to_string(weightOf(i)));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
-  return order;
-}
-
-Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const CorrespondenceArrays& arrays,
-                    const std::vector<int>& rayIndices, const std::vector<int>& pointIndices, sac::Sampling sampling) {
-  std::vector<int> cameras;
-  for (const correspondences::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
-  if (sampling == sac::Sampling::Uniform)
-    return {cameras, correspondences::allIndices(rayIndices.size()), correspondences::allIndices(pointIndices.size()), false};
-  std::vector<int> rays = byQuality("getWeight2d2d", rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
-  std::vector<int> points = byQuality("getWeight2d3d", pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
-  const bool weightsDiffer = !std::is_sorted(rays.begin(), rays.end()) || !std::is_sorted(points.begin(), points.end());
-  return {cameras, std::move(rays), std::move(points), weightsDiffer};
-}
-
-CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
-                                const std::vector<int>& points) {
-  CorrespondenceArrays arrays(adapter, rays, points);
-  arrays.boundUnknownFocalLengths();
-  return arrays;
-}
 
 }  // namespace
 
@@ -78,13 +28,11 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
                            Clock::time_point start)
     : options_(options),
       start_(start),
-      rayIndices_(shuffled(adapter.getNumberCorrespondences2d2d(), options.seed, kRayOrderStream)),
-      pointIndices_(shuffled(adapter.getNumberCorrespondences2d3d(), options.seed, kPointOrderStream)),
-      arrays_(readArrays(adapter, rayIndices_, pointIndices_)),
-      sampler_(makeSampler(adapter, arrays_, rayIndices_, pointIndices_, options.sampling)),
-      choice_(makeStrategies(options.solvers, sampler_)),
-      scorer_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
-      chance_(arrays_, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
+      data_(readSearchData(adapter, options)),
+      choice_(makeStrategies(options.solvers, data_.sampler)),
+      scorer_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
+      chance_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
+      significance_(chance_, data_.sampler, kParameters),
       optimizer_(scorer_, chance_, options.minFocalLength, options.maxFocalLength),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()) {
@@ -100,7 +48,7 @@ void HybridSearch::run() {
 
 void HybridSearch::tryInitialPose() {
   Model model;
-  model.pose = arrays_.normalization().apply(*options_.initialPose);
+  model.pose = data_.arrays.normalization().apply(*options_.initialPose);
   model.evaluation = scorer_.evaluate(model.pose);
   if (model.evaluation.score > 0) consider(model);
 }
@@ -119,6 +67,7 @@ void HybridSearch::tryBatch(int count) {
     for (std::size_t s = 0; s < worker.draws.size(); ++s) choice_.addDraws(s, worker.draws[s]);
     if (worker.best && (!best || worker.best->isLessLikelyChance(*best))) best = worker.best;
   }
+  significance_.setSamples(iterations_);
   if (best && isWorthConsidering(*best)) consider(best->model);
 }
 
@@ -133,7 +82,7 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
 // If less than one wrong pose of those tried so far is expected to look as good; or if it is the best so far, as long as no
 // better one is known.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
-  if (candidate.logChance + logTests() < 0) return true;
+  if (significance_.isPromising(candidate.logChance)) return true;
   if (bestIsSignificant_ || (bestCandidate_ && !candidate.isLessLikelyChance(*bestCandidate_))) return false;
   bestCandidate_ = candidate;
   return true;
@@ -144,12 +93,12 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   const std::size_t chosen = choice_.choose(random.uniform());
   ++worker.draws[chosen];
   const Strategy& strategy = choice_.strategies()[chosen];
-  const Sample sample = sampler_.draw(strategy.size, number, random);
+  const Sample sample = data_.sampler.draw(strategy.size, number, random);
 
   correspondences::RayMatch rays[kMaxSampleSize];
   correspondences::PointMatch points[kMaxSampleSize];
-  for (int k = 0; k < strategy.size.rays; ++k) rays[k] = arrays_.rays()[static_cast<std::size_t>(sample.rays[k])];
-  for (int k = 0; k < strategy.size.points; ++k) points[k] = arrays_.points()[static_cast<std::size_t>(sample.points[k])];
+  for (int k = 0; k < strategy.size.rays; ++k) rays[k] = data_.arrays.rays()[static_cast<std::size_t>(sample.rays[k])];
+  for (int k = 0; k < strategy.size.points; ++k) points[k] = data_.arrays.points()[static_cast<std::size_t>(sample.points[k])];
   if (isDegenerate(rays, strategy.size.rays, points, strategy.size.points)) return;
 
   const int found = strategy.solve(rays, points, worker.solutions.data());
@@ -165,7 +114,7 @@ void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int nu
   candidate.model.pose = pose;
   candidate.model.evaluation = scorer_.evaluate(pose, expectation_);
   if (!candidate.model.evaluation.complete) return;
-  candidate.logChance = logChance(candidate.model);
+  candidate.logChance = significance_.logChance(candidate.model.evaluation, pose.focalLength);
   if (!best || candidate.isLessLikelyChance(*best)) best = candidate;
 }
 
@@ -209,32 +158,30 @@ void HybridSearch::escapeLocalOptimum(Model& model) const {
 void HybridSearch::setBest(const Model& model) {
   best_ = model;
   bestIsSignificant_ = isSignificant(model);
-  if (!bestIsSignificant_) return;
-  std::vector<char> rays, points;
-  scorer_.inliers(model.pose, rays, points);
-  const InlierCounts inliers = sampler_.count(rays, points);
+  if (bestIsSignificant_) learnFrom(model);
+}
+
+// What the search expects from now on: of samples, and of poses worth keeping.
+void HybridSearch::learnFrom(const Model& model) {
+  const InlierCounts inliers = inlierCounts(model.pose);
   std::vector<double> probabilities;
   for (const Strategy& strategy : choice_.strategies())
-    probabilities.push_back((1 - kFalseRejection) * sampler_.allInlierProbability(strategy.size, inliers));
+    probabilities.push_back((1 - kFalseRejection) * data_.sampler.allInlierProbability(strategy.size, inliers));
   choice_.setAllInlierProbabilities(probabilities);
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
-  expectation_.goodShare[0] = share(inliers.rays, sampler_.numberRays());
-  expectation_.goodShare[1] = share(inliers.points, sampler_.numberPoints());
-  expectation_.chanceShare[0] = chance_.rayShare(model.pose.focalLength), expectation_.chanceShare[1] = chance_.pointShare();
+  expectation_.goodShare = {share(inliers.rays, data_.sampler.numberRays()), share(inliers.points, data_.sampler.numberPoints())};
+  expectation_.chanceShare = {chance_.rayShare(model.pose.focalLength), chance_.pointShare()};
 }
 
-Support HybridSearch::support(const Evaluation& evaluation) const {
-  return {evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
+InlierCounts HybridSearch::inlierCounts(const FocalPose& pose) const {
+  const PerKind<std::vector<char>> inliers = scorer_.inliers(pose);
+  return data_.sampler.count(inliers.rays, inliers.points);
 }
 
-double HybridSearch::logChance(const Model& model) const {
-  return chance_.logProbability(support(model.evaluation), model.pose.focalLength, kParameters);
+bool HybridSearch::isSignificant(const Model& model) const {
+  return significance_.isSignificant(significance_.logChance(model.evaluation, model.pose.focalLength));
 }
-
-double HybridSearch::logTests() const { return std::log10(iterations_ + 1.); }
-
-bool HybridSearch::isSignificant(const Model& model) const { return logChance(model) + logTests() < kLogFalseAlarms; }
 
 bool HybridSearch::isOutOfTime() const {
   return std::isfinite(options_.timeBudgetSeconds) &&
@@ -261,24 +208,8 @@ FinalPose HybridSearch::finish(bool optimize) {
   return result;
 }
 
-// One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
-// chance, with one parameter left to fit.
-sac::FailureReason HybridSearch::verify(bool isRegular) const {
-  const bool hasPoints = chance_.pointsAreMoreThanChance(best_.evaluation.points, sampler_.numberPoints());
-  if (!(logChance(best_) + logTests() < (hasPoints ? kLogFalseAlarms : kLogFalseAlarmsOfRays)))
-    return sac::FailureReason::InliersMayBeChance;
-  std::vector<char> rays, points;
-  scorer_.inliers(best_.pose, rays, points);
-  const std::vector<int> perCamera = sampler_.count(rays, points).raysPerCamera;
-  const auto largest = std::max_element(perCamera.begin(), perCamera.end());
-  if (largest != perCamera.end() && *largest >= kParameters - 1) {
-    Support rest = support(best_.evaluation);
-    rest.rays -= *largest;
-    rest.allRays -= sampler_.numberRays(static_cast<std::size_t>(largest - perCamera.begin()));
-    if (!(chance_.logProbability(rest, best_.pose.focalLength, 1) + logTests() < kLogFalseAlarms))
-      return sac::FailureReason::UndeterminedPose;
-  }
-  return isRegular ? sac::FailureReason::None : sac::FailureReason::UndeterminedPose;
+sac::FailureReason HybridSearch::verdict(bool isRegular) const {
+  return significance_.verdict(best_.evaluation, best_.pose.focalLength, inlierCounts(best_.pose), isRegular);
 }
 
 }  // namespace robust

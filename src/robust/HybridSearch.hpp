@@ -11,6 +11,8 @@
 #include "robust/ChanceModel.hpp"
 #include "robust/LocalOptimizer.hpp"
 #include "robust/PoseScorer.hpp"
+#include "robust/SearchData.hpp"
+#include "robust/Significance.hpp"
 #include "robust/SolverChoice.hpp"
 #include "robust/WorkerPool.hpp"
 
@@ -37,16 +39,14 @@ class HybridSearch {
   void run();
   // Final optimization of the best model (or only its noise and information).
   FinalPose finish(bool optimize);
-  // Whether the best model is more than chance, and determined. `isRegular`: its information matrix is.
-  sac::FailureReason verify(bool isRegular) const;
+  // Whether the best model can be trusted (Significance).
+  sac::FailureReason verdict(bool isRegular) const;
 
   bool hasModel() const { return best_.evaluation.score > 0; }
   const Model& best() const { return best_; }
   const PoseScorer& scorer() const { return scorer_; }
   const SolverChoice& choice() const { return choice_; }
-  // The adapter's indices of the arrays' entries.
-  const std::vector<int>& rayIndices() const { return rayIndices_; }
-  const std::vector<int>& pointIndices() const { return pointIndices_; }
+  const SearchData& data() const { return data_; }
   int iterations() const { return iterations_; }
   int localOptimizations() const { return localOptimizations_; }
   sac::StopReason stopReason() const { return stopReason_; }
@@ -76,24 +76,21 @@ class HybridSearch {
   void replaceIfLikelier(const FocalPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
   void setBest(const Model& model);
+  void learnFrom(const Model& model);
   bool isWorthConsidering(const Candidate& candidate);
-  // log10 of the probability that a wrong pose looks as good, and of the number of poses tried so far.
-  double logChance(const Model& model) const;
-  double logTests() const;
   bool isSignificant(const Model& model) const;
   bool isBetter(const Model& model) const;
   bool isDone();
   bool isOutOfTime() const;
-  Support support(const Evaluation& evaluation) const;
+  InlierCounts inlierCounts(const FocalPose& pose) const;
 
   const sac::HybridRansacOptions& options_;
   Clock::time_point start_;
-  std::vector<int> rayIndices_, pointIndices_;
-  CorrespondenceArrays arrays_;
-  Sampler sampler_;
+  SearchData data_;
   SolverChoice choice_;
   PoseScorer scorer_;
   ChanceModel chance_;
+  Significance significance_;
   LocalOptimizer optimizer_;
   WorkerPool workers_;
   std::vector<WorkerState> workerStates_;

@@ -26,8 +26,8 @@ struct Linearization {
 Linearization linearize(const LeastSquaresProblem& problem, const FocalPose& pose) {
   const PlainPose plain = toPlain(pose);
   NormalEquations sums;
-  problem.kernels->addPoints(problem.points, plain, problem.pointLoss, sums);
-  problem.kernels->addRays(problem.rays, plain, problem.rayLoss, sums);
+  if (problem.kinds.points) problem.kernels->addPoints(problem.points, plain, problem.pointLoss, sums);
+  if (problem.kinds.rays) problem.kernels->addRays(problem.rays, plain, problem.rayLoss, sums);
   Linearization result;
   result.cost = sums.cost;
   for (int row = 0, k = 0; row < kParameters; ++row) {
@@ -72,7 +72,7 @@ Vector7 dampedStep(const Linearization& at, double damping) {
 }  // namespace
 
 LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss) {
-  return {&kernels(), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss};
+  return {&kernels(), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds};
 }
 
 LeastSquaresResult minimize(const LeastSquaresProblem& problem, const FocalPose& start, const LeastSquaresOptions& options) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "correspondences/CorrespondenceArrays.hpp"
+#include "robust/PerKind.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -14,12 +15,13 @@ using correspondences::CorrespondenceArrays;
 
 using Matrix7 = Eigen::Matrix<double, kParameters, kParameters>;
 
-// The problem: minimize over both kinds the sum of precision * scale^2 rho((error / scale)^2).
+// The problem: minimize over the correspondences of the kinds that take part the sum of precision * scale^2 rho((error / scale)^2).
 struct LeastSquaresProblem {
   const Kernels* kernels;
   PointArrays points;
   RayArrays rays;
   KindLoss pointLoss, rayLoss;
+  Kinds kinds = kBothKinds;  // that take part
 };
 
 struct LeastSquaresOptions {

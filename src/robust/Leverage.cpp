@@ -17,7 +17,7 @@ constexpr double kMaxLeverage = 0.99;
 std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const FocalPose& pose) {
   std::vector<double> leverages(correspondences::padded(problem.rays.size), 0);
   Matrix7 covariance;
-  if (invertInformation(information(problem, pose), covariance))
+  if (problem.kinds.rays && invertInformation(information(problem, pose), covariance))
     problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, covariance.data(), leverages.data());
   leverages.resize(problem.rays.size);
   return leverages;

@@ -10,7 +10,7 @@ namespace hybridgv {
 namespace robust {
 
 // The leverage h = W J C J^T of every ray, C the inverse of the information: from 0 to 1. At the minimum without the ray, its error
-// is 1 / (1 - h) times as large (to first order). All 0 if the information has no inverse.
+// is 1 / (1 - h) times as large (to first order). All 0 if the information has no inverse or rays do not take part.
 std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const FocalPose& pose);
 
 // RayArrays::narrowing with which the loss of a ray is a function of its studentized error e / sqrt(1 - h): an inlier's error has

@@ -93,7 +93,7 @@ FocalPose LocalOptimizer::refine(const FocalPose& start) const {
   const double ray = scorer_.maxEpipolarError(), point = scorer_.maxReprojectionError();
   FocalPose pose = start;
   for (const Stage& stage : stages)
-    pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, Kinds{}, stage.steps);
+    pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, kBothKinds, stage.steps);
   pose = minimized(truncatedLoss(ray), truncatedLoss(point), pose, moreThanChance(pose), {10, 1e-4});
   return settle(pose, moreThanChance(pose));
 }
@@ -130,7 +130,10 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   for (std::size_t i = 0; i < squaredErrors.size(); ++i)
-    if (squaredErrors[i] < squaredThreshold) sum += scorer_.arrays().points()[i].point, ++count;
+    if (squaredErrors[i] < squaredThreshold) {
+      sum += scorer_.arrays().points()[i].point;
+      ++count;
+    }
   const Eigen::Vector3d middle = sum / std::max(count, 1);
   const Eigen::Vector3d axis = pose.rotation.col(2);
   FocalPose result = pose;
@@ -148,14 +151,14 @@ LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
   LeastSquaresOptions options;
   options.maxIterations = steps.iterations;
   options.minRelativeDecrease = steps.minDecrease;
-  options.minFocalLength = minFocalLength_, options.maxFocalLength = maxFocalLength_;
+  options.minFocalLength = minFocalLength_;
+  options.maxFocalLength = maxFocalLength_;
   return options;
 }
 
 LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const {
   LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss);
-  if (!kinds.rays) result.rays.size = 0;
-  if (!kinds.points) result.points.size = 0;
+  result.kinds = kinds;
   return result;
 }
 
@@ -164,7 +167,7 @@ Kinds LocalOptimizer::moreThanChance(const FocalPose& pose) const {
   const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
   const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), pose.focalLength),
                     chance_.pointsAreMoreThanChance(evaluation.points, size(scorer_.arrays().points()))};
-  return kinds.rays || kinds.points ? kinds : Kinds{};
+  return kinds.rays || kinds.points ? kinds : kBothKinds;
 }
 
 SquaredErrors LocalOptimizer::squaredErrors(const FocalPose& pose, const Kinds& kinds) const {
@@ -187,7 +190,7 @@ Noise LocalOptimizer::noise(const SquaredErrors& errors, double focalLength) con
 }
 
 double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
-  const SquaredErrors errors = squaredErrors(pose, Kinds{});
+  const SquaredErrors errors = squaredErrors(pose, kBothKinds);
   const Noise at = noise(errors, pose.focalLength);
   return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points);
 }
@@ -199,7 +202,7 @@ FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
   constexpr Steps kFine{20, 1e-8};
   result.pose = optimize ? withoutLevers(likeliest(start, kinds, 1, kFine), kinds, 3, kFine, narrowing) : start;
   // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.
-  const SquaredErrors errors = squaredErrors(result.pose, Kinds{});
+  const SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
   result.noise = noise(errors, result.pose.focalLength);
   ErrorMixture &ray = result.noise.rays, &point = result.noise.points;
   const std::vector<double> rays = below(errors.rays, ray.boundary);

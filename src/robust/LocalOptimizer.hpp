@@ -10,18 +10,8 @@
 namespace hybridgv {
 namespace robust {
 
-// The kinds that an optimization uses.
-struct Kinds {
-  bool rays = true, points = true;
-};
-
-struct SquaredErrors {
-  std::vector<double> rays, points;
-};
-
-struct Noise {
-  ErrorMixture rays, points;
-};
+using SquaredErrors = PerKind<std::vector<double>>;
+using Noise = PerKind<ErrorMixture>;
 
 struct FinalPose {
   FocalPose pose;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "robust/toPlain.hpp"
 
@@ -12,26 +11,33 @@ namespace {
 
 constexpr std::size_t kChunk = 64;
 
+// The log of the likelihood ratio of two shares of inliers, per inlier and per outlier.
+struct LogRatio {
+  LogRatio(double good, double chance) {
+    if (!(good > chance)) return;
+    perInlier = std::log(good / chance);
+    perOutlier = std::log((1 - good) / (1 - chance));
+  }
+  double of(int inliers, std::size_t count) const {
+    return inliers * perInlier + (static_cast<double>(count) - inliers) * perOutlier;
+  }
+
+  double perInlier = 0, perOutlier = 0;
+};
+
 // Wald's sequential probability ratio test of the inlier share of each kind.
 class SequentialTest {
  public:
-  explicit SequentialTest(const Expectation& expectation) {
-    for (int kind = 0; kind < 2; ++kind) {
-      const double good = expectation.goodShare[kind], chance = expectation.chanceShare[kind];
-      if (!(good > chance)) continue;
-      perInlier_[kind] = std::log(good / chance);
-      perOutlier_[kind] = std::log((1 - good) / (1 - chance));
-    }
-  }
-  // The log of the likelihood ratio good : chance.
-  void add(int kind, int inliers, std::size_t count) {
-    ratio_ += inliers * perInlier_[kind] + (static_cast<double>(count) - inliers) * perOutlier_[kind];
-  }
+  explicit SequentialTest(const Expectation& expectation)
+      : rays_(expectation.goodShare.rays, expectation.chanceShare.rays),
+        points_(expectation.goodShare.points, expectation.chanceShare.points) {}
+  void add(bool isRays, int inliers, std::size_t count) { ratio_ += (isRays ? rays_ : points_).of(inliers, count); }
   bool isHopeless() const { return ratio_ < kReject; }
 
  private:
   static constexpr double kReject = -4.605170185988091;  // log(kFalseRejection)
-  double perInlier_[2] = {0, 0}, perOutlier_[2] = {0, 0}, ratio_ = 0;
+  LogRatio rays_, points_;
+  double ratio_ = 0;  // of good : chance
 };
 
 }  // namespace
@@ -56,17 +62,21 @@ void PoseScorer::makeChunks() {
   }
 }
 
-Score PoseScorer::score(const Chunk& chunk, const PlainPose& pose) const {
-  if (chunk.isRays) return kernels_.scoreRays(rays_, pose, maxEpipolarError_ * maxEpipolarError_, chunk.begin, chunk.end);
-  return kernels_.scorePoints(points_, pose, maxReprojectionError_ * maxReprojectionError_, chunk.begin, chunk.end);
+int PoseScorer::add(const Chunk& chunk, const PlainPose& pose, Evaluation& evaluation) const {
+  const double threshold = chunk.isRays ? maxEpipolarError_ : maxReprojectionError_;
+  const Score part = chunk.isRays ? kernels_.scoreRays(rays_, pose, threshold * threshold, chunk.begin, chunk.end)
+                                  : kernels_.scorePoints(points_, pose, threshold * threshold, chunk.begin, chunk.end);
+  evaluation.score += scoring_ == sac::Scoring::Msac ? part.msac : part.inliers;
+  (chunk.isRays ? evaluation.rays : evaluation.points) += part.inliers;
+  return part.inliers;
 }
 
-double PoseScorer::gain(const Score& score) const { return scoring_ == sac::Scoring::Msac ? score.msac : score.inliers; }
-
 Evaluation PoseScorer::evaluate(const FocalPose& pose) const {
-  Expectation none;
-  none.score = -1;
-  return evaluate(pose, none);
+  const PlainPose plain = toPlain(pose);
+  Evaluation result;
+  for (const Chunk& chunk : chunks_) add(chunk, plain, result);
+  result.complete = true;
+  return result;
 }
 
 Evaluation PoseScorer::evaluate(const FocalPose& pose, const Expectation& expectation) const {
@@ -75,12 +85,9 @@ Evaluation PoseScorer::evaluate(const FocalPose& pose, const Expectation& expect
   Evaluation result;
   std::size_t left = points_.size + rays_.size;
   for (const Chunk& chunk : chunks_) {
-    const Score part = score(chunk, plain);
     const std::size_t count = chunk.end - chunk.begin;
-    result.score += gain(part);
-    (chunk.isRays ? result.rays : result.points) += part.inliers;
+    test.add(chunk.isRays, add(chunk, plain, result), count);
     left -= count;
-    test.add(chunk.isRays ? 0 : 1, part.inliers, count);
     if (result.score + static_cast<double>(left) <= expectation.score || test.isHopeless()) return result;
   }
   result.complete = true;
@@ -101,14 +108,13 @@ std::vector<double> PoseScorer::squaredPointErrors(const FocalPose& pose) const 
   return errors;
 }
 
-void PoseScorer::inliers(const FocalPose& pose, std::vector<char>& rays, std::vector<char>& points) const {
+PerKind<std::vector<char>> PoseScorer::inliers(const FocalPose& pose) const {
   const auto below = [](const std::vector<double>& errors, double threshold) {
     std::vector<char> mask(errors.size());
     std::transform(errors.begin(), errors.end(), mask.begin(), [&](double e) { return e < threshold * threshold; });
     return mask;
   };
-  rays = below(squaredRayErrors(pose), maxEpipolarError_);
-  points = below(squaredPointErrors(pose), maxReprojectionError_);
+  return {below(squaredRayErrors(pose), maxEpipolarError_), below(squaredPointErrors(pose), maxReprojectionError_)};
 }
 
 }  // namespace robust

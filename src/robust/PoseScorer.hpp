@@ -5,6 +5,7 @@
 
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/PerKind.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -22,7 +23,7 @@ struct Evaluation {
 // sequential test between the inlier shares of a pose worth keeping and of a wrong one.
 struct Expectation {
   double score = 0;
-  double goodShare[2] = {0, 0}, chanceShare[2] = {0, 0};  // of 2D-2D, 2D-3D; no test of a kind whose good share is not larger
+  PerKind<double> goodShare, chanceShare;  // no test of a kind whose good share is not larger
 };
 
 // Probability that the sequential test gives up a pose that has the good shares.
@@ -33,10 +34,12 @@ class PoseScorer {
   // The arrays must outlive the scorer and be in random order.
   PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring);
 
+  // Over all correspondences.
   Evaluation evaluate(const FocalPose& pose) const;
+  // The same, given up early where there is no hope.
   Evaluation evaluate(const FocalPose& pose, const Expectation& expectation) const;
-  // Squared errors below the square of a kind's threshold.
-  void inliers(const FocalPose& pose, std::vector<char>& rays, std::vector<char>& points) const;
+  // Masks of the correspondences whose error is below their kind's threshold.
+  PerKind<std::vector<char>> inliers(const FocalPose& pose) const;
   // Errors of one kind at a pose, infinite for those that are no inliers.
   std::vector<double> squaredRayErrors(const FocalPose& pose) const;
   std::vector<double> squaredPointErrors(const FocalPose& pose) const;
@@ -51,8 +54,8 @@ class PoseScorer {
     std::size_t begin, end;
   };
   void makeChunks();
-  Score score(const Chunk& chunk, const PlainPose& pose) const;
-  double gain(const Score& score) const;
+  // Adds the chunk's correspondences to the evaluation; returns its inliers.
+  int add(const Chunk& chunk, const PlainPose& pose, Evaluation& evaluation) const;
 
   const CorrespondenceArrays& arrays_;
   const Kernels& kernels_;

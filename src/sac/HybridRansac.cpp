@@ -11,14 +11,16 @@ namespace hybridgv {
 namespace sac {
 namespace {
 
+// The mask in the adapter's order, and the number of inliers.
+int setMask(const std::vector<char>& inliers, const std::vector<int>& indices, std::vector<char>& mask) {
+  for (std::size_t i = 0; i < inliers.size(); ++i) mask[static_cast<std::size_t>(indices[i])] = inliers[i];
+  return static_cast<int>(std::count(inliers.begin(), inliers.end(), 1));
+}
+
 void setMasks(const robust::HybridSearch& search, HybridRansacResult& result) {
-  std::vector<char> rays, points;
-  search.scorer().inliers(search.best().pose, rays, points);
-  for (std::size_t i = 0; i < rays.size(); ++i) result.inliers2d2d[static_cast<std::size_t>(search.rayIndices()[i])] = rays[i];
-  for (std::size_t i = 0; i < points.size(); ++i)
-    result.inliers2d3d[static_cast<std::size_t>(search.pointIndices()[i])] = points[i];
-  result.numberInliers2d2d = static_cast<int>(std::count(rays.begin(), rays.end(), 1));
-  result.numberInliers2d3d = static_cast<int>(std::count(points.begin(), points.end(), 1));
+  const robust::PerKind<std::vector<char>> inliers = search.scorer().inliers(search.best().pose);
+  result.numberInliers2d2d = setMask(inliers.rays, search.data().rayIndices, result.inliers2d2d);
+  result.numberInliers2d3d = setMask(inliers.points, search.data().pointIndices, result.inliers2d3d);
 }
 
 // From the normalized frame to the rig's, where positions are `unit` times larger.
@@ -40,16 +42,17 @@ void setStatistics(const robust::HybridSearch& search, HybridRansacResult& resul
 
 void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, HybridRansacResult& result) {
   const robust::FinalPose final = search.finish(options.finalOptimization);
-  const correspondences::Normalization& normalization = search.scorer().arrays().normalization();
+  const correspondences::Normalization& normalization = search.data().arrays.normalization();
   result.pose = normalization.undo(final.pose);
-  result.noise2d2d = final.noise.rays.deviation, result.noise2d3d = final.noise.points.deviation;
+  result.noise2d2d = final.noise.rays.deviation;
+  result.noise2d3d = final.noise.points.deviation;
   result.score = search.best().evaluation.score;
   result.solver = search.best().solver;
   setMasks(search, result);
   robust::Matrix7 covariance;
   const bool determined = robust::invertInformation(final.information, covariance);
   if (determined) setCovariance(covariance, normalization.unit, result);
-  result.failureReason = search.verify(determined);
+  result.failureReason = search.verdict(determined);
   result.success = result.failureReason == FailureReason::None;
 }
 

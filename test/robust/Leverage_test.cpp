@@ -136,7 +136,7 @@ TEST(Leverage, OfASingleWrongRaySeldomHoldsAPose) {
     ++tried;
     const FocalPose start = arrays.normalization().apply(wrong);
     held += squaredError(optimizer.polish(start, true).pose) < 9 * kNoise * kNoise;
-    heldWithoutNarrowing += squaredError(optimizer.settle(start, Kinds{})) < 9 * kNoise * kNoise;
+    heldWithoutNarrowing += squaredError(optimizer.settle(start, kBothKinds)) < 9 * kNoise * kNoise;
   }
   EXPECT_LE(held, 25);
   EXPECT_GE(heldWithoutNarrowing, 40);  // else the problems show nothing

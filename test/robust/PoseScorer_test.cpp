@@ -46,10 +46,9 @@ TEST(PoseScorer, ScoreIsTheSumOverBothKindsWithTheirOwnThresholds) {
   EXPECT_NEAR(msac.evaluate(pose).score, expected, 1e-9 * expected);
   EXPECT_EQ(inliers.evaluate(pose).score, count);
   EXPECT_EQ(msac.evaluate(pose).rays + msac.evaluate(pose).points, count);
-  std::vector<char> rays, points;
-  msac.inliers(pose, rays, points);
-  EXPECT_EQ(std::accumulate(rays.begin(), rays.end(), 0), msac.evaluate(pose).rays);
-  EXPECT_EQ(std::accumulate(points.begin(), points.end(), 0), msac.evaluate(pose).points);
+  const PerKind<std::vector<char>> masks = msac.inliers(pose);
+  EXPECT_EQ(std::accumulate(masks.rays.begin(), masks.rays.end(), 0), msac.evaluate(pose).rays);
+  EXPECT_EQ(std::accumulate(masks.points.begin(), masks.points.end(), 0), msac.evaluate(pose).points);
 }
 
 TEST(PoseScorer, APoseThatCannotWinIsGivenUpAndOneThatCanIsNot) {
@@ -72,8 +71,8 @@ TEST(PoseScorer, SequentialTestKeepsGoodPosesAndGivesUpChanceOnesEarly) {
     const Data data(random, 300, 300, 0.6);
     const PoseScorer scorer(data.arrays, 6, 12, sac::Scoring::Msac);
     Expectation expectation;
-    expectation.goodShare[0] = expectation.goodShare[1] = 0.3;
-    expectation.chanceShare[0] = expectation.chanceShare[1] = 0.03;
+    expectation.goodShare = {0.3, 0.3};
+    expectation.chanceShare = {0.03, 0.03};
     goodKept += scorer.evaluate(data.truth(), expectation).complete;
     badKept += scorer.evaluate(test::perturbed(random, data.truth(), 2, 2, 1), expectation).complete;
   }

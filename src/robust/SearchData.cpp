@@ -1,0 +1,71 @@
+#include "robust/SearchData.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "CheckArguments.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+using correspondences::CorrespondenceArrays;
+
+// Streams of random numbers apart from those of the hypotheses.
+constexpr std::uint64_t kRayOrderStream = ~std::uint64_t{0}, kPointOrderStream = kRayOrderStream - 1;
+
+// The indices 0 .. count-1 in random order.
+std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t stream) {
+  std::vector<int> order = correspondences::allIndices(count);
+  RandomStream random(seed, stream);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  return order;
+}
+
+// Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
+template <class Weight>
+std::vector<int> byQuality(const char* name, const std::vector<int>& indices, Weight weight) {
+  std::vector<int> order = correspondences::allIndices(indices.size());
+  const auto weightOf = [&](int i) { return weight(static_cast<std::size_t>(indices[static_cast<std::size_t>(i)])); };
+  for (const int i : order)
+    if (!std::isfinite(weightOf(i)))
+      throwInvalid("adapter." + std::string(name) + "(" + std::to_string(indices[static_cast<std::size_t>(i)]) + ")",
+                   "must be finite, is " + std::to_string(weightOf(i)));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
+  return order;
+}
+
+Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const CorrespondenceArrays& arrays,
+                    const std::vector<int>& rayIndices, const std::vector<int>& pointIndices, sac::Sampling sampling) {
+  std::vector<int> cameras;
+  for (const correspondences::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
+  if (sampling == sac::Sampling::Uniform)
+    return {cameras, correspondences::allIndices(rayIndices.size()), correspondences::allIndices(pointIndices.size()), false};
+  std::vector<int> rays = byQuality("getWeight2d2d", rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
+  std::vector<int> points = byQuality("getWeight2d3d", pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
+  const bool weightsDiffer = !std::is_sorted(rays.begin(), rays.end()) || !std::is_sorted(points.begin(), points.end());
+  return {cameras, std::move(rays), std::move(points), weightsDiffer};
+}
+
+CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
+                                const std::vector<int>& points) {
+  CorrespondenceArrays arrays(adapter, rays, points);
+  arrays.boundUnknownFocalLengths();
+  return arrays;
+}
+
+}  // namespace
+
+SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options) {
+  std::vector<int> rays = shuffled(adapter.getNumberCorrespondences2d2d(), options.seed, kRayOrderStream);
+  std::vector<int> points = shuffled(adapter.getNumberCorrespondences2d3d(), options.seed, kPointOrderStream);
+  CorrespondenceArrays arrays = readArrays(adapter, rays, points);
+  Sampler sampler = makeSampler(adapter, arrays, rays, points, options.sampling);
+  return {std::move(rays), std::move(points), std::move(arrays), std::move(sampler)};
+}
+
+}  // namespace robust
+}  // namespace hybridgv

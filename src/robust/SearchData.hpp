@@ -1,0 +1,24 @@
+// What a search works on: the correspondences in random order, and how samples are drawn from them.
+#pragma once
+
+#include <vector>
+
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
+#include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/Sampler.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+struct SearchData {
+  std::vector<int> rayIndices, pointIndices;  // the adapter's indices of the arrays' entries
+  correspondences::CorrespondenceArrays arrays;
+  Sampler sampler;
+};
+
+// Reads everything that the adapter has. Throws std::invalid_argument for data or weights that are not finite.
+SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options);
+
+}  // namespace robust
+}  // namespace hybridgv
