@@ -4,13 +4,21 @@
 namespace hybridgv {
 namespace correspondences {
 
-// The pose has six parameters; each of these adds one. Today's functions estimate the focal length only.
+// Rotation and position.
+constexpr int kPoseParameters = 6;
+
+// The pose's parameters are estimated always; each of these adds one, in this order. Today's public functions estimate the focal
+// length only.
 struct Intrinsics {
   bool focalLength = true;
   bool radial = false;  // one parameter of radial distortion
 
-  constexpr int parameters() const { return 6 + (focalLength ? 1 : 0) + (radial ? 1 : 0); }
+  constexpr int parameters() const { return kPoseParameters + (focalLength ? 1 : 0) + (radial ? 1 : 0); }
 };
+
+// What a FocalPose consists of.
+constexpr int kFocalPoseParameters = Intrinsics{true, false}.parameters();
+constexpr int kMostParameters = Intrinsics{true, true}.parameters();
 
 }  // namespace correspondences
 }  // namespace hybridgv

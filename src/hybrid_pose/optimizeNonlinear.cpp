@@ -8,24 +8,22 @@
 namespace hybridgv {
 namespace hybrid_pose {
 
-using robust::kParameters;
-
 static bool isDetermined(const robust::LeastSquaresProblem& problem, const FocalPose& pose) {
-  robust::Matrix7 covariance;
-  return 2 * problem.points.size + problem.rays.size >= kParameters &&
+  robust::ParameterMatrix covariance;
+  return 2 * problem.points.size + problem.rays.size >= static_cast<std::size_t>(problem.estimated.parameters()) &&
          robust::invertInformation(robust::information(problem, pose), covariance);
 }
 
 // From the normalized frame to the rig's, where positions are `unit` times larger.
-static void setInformation(const robust::Matrix7& normalized, double unit, NonlinearResult& result) {
-  Eigen::Matrix<double, kParameters, 1> scale = Eigen::Matrix<double, kParameters, 1>::Ones();
-  scale.segment<3>(3).setConstant(1 / unit);
-  const robust::Matrix7 information = scale.asDiagonal() * normalized * scale.asDiagonal();
-  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters, Eigen::RowMajor>>(result.information.data()) = information;
-  robust::Matrix7 covariance;
-  result.focalLengthStandardDeviation = robust::invertInformation(information, covariance)
-                                            ? result.pose.focalLength * std::sqrt(covariance(6, 6))
-                                            : std::numeric_limits<double>::infinity();
+static void setInformation(const robust::ParameterMatrix& normalized, double unit, robust::Intrinsics estimated,
+                           NonlinearResult& result) {
+  const robust::ParameterMatrix information = robust::withPositionsTimes(1 / unit, normalized);
+  result.information = robust::toFocalPoseMatrix(information, estimated);
+  robust::ParameterMatrix covariance;
+  result.focalLengthStandardDeviation =
+      robust::invertInformation(information, covariance)
+          ? result.pose.focalLength * std::sqrt(robust::varianceOfLogFocalLength(covariance, estimated))
+          : std::numeric_limits<double>::infinity();
 }
 
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
@@ -49,7 +47,7 @@ NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::
   result.converged = minimum.converged;
   result.iterations = minimum.iterations;
   result.cost = minimum.cost;
-  setInformation(minimum.information, normalization.unit, result);
+  setInformation(minimum.information, normalization.unit, problem.estimated, result);
   return result;
 }
 

@@ -32,8 +32,8 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       choice_(makeStrategies(options.solvers, data_.sampler)),
       scorer_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
       chance_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
-      significance_(chance_, data_.sampler, kParameters),
-      optimizer_(scorer_, chance_, options.minFocalLength, options.maxFocalLength),
+      significance_(chance_, data_.sampler, estimated().parameters()),
+      optimizer_(scorer_, chance_, options.minFocalLength, options.maxFocalLength, estimated()),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()) {
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
@@ -135,7 +135,7 @@ bool HybridSearch::isBetter(const Model& model) const {
   return model.evaluation.score > best_.evaluation.score;
 }
 
-void HybridSearch::replaceIfLikelier(const FocalPose& pose, Model& model) const {
+void HybridSearch::replaceIfLikelier(const QueryPose& pose, Model& model) const {
   const double logLikelihood = optimizer_.logLikelihood(pose);
   if (!(logLikelihood > model.logLikelihood)) return;
   model.pose = pose;
@@ -174,7 +174,7 @@ void HybridSearch::learnFrom(const Model& model) {
   expectation_.chanceShare = {chance_.rayShare(model.pose.focalLength), chance_.pointShare()};
 }
 
-InlierCounts HybridSearch::inlierCounts(const FocalPose& pose) const {
+InlierCounts HybridSearch::inlierCounts(const QueryPose& pose) const {
   const PerKind<std::vector<char>> inliers = scorer_.inliers(pose);
   return data_.sampler.count(inliers.rays, inliers.points);
 }

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 // A pose (in the normalized frame) with its evaluation.
 struct Model {
-  FocalPose pose;
+  QueryPose pose;
   Evaluation evaluation;
   std::optional<Solver> solver;
   double logLikelihood = 0;  // of an optimized one
@@ -47,6 +47,7 @@ class HybridSearch {
   const PoseScorer& scorer() const { return scorer_; }
   const SolverChoice& choice() const { return choice_; }
   const SearchData& data() const { return data_; }
+  static constexpr Intrinsics estimated() { return {}; }
   int iterations() const { return iterations_; }
   int localOptimizations() const { return localOptimizations_; }
   sac::StopReason stopReason() const { return stopReason_; }
@@ -73,7 +74,7 @@ class HybridSearch {
   void tryHypothesis(int number, WorkerState& worker) const;
   void considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const;
   void consider(const Model& candidate);
-  void replaceIfLikelier(const FocalPose& pose, Model& model) const;
+  void replaceIfLikelier(const QueryPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
   void setBest(const Model& model);
   void learnFrom(const Model& model);
@@ -82,7 +83,7 @@ class HybridSearch {
   bool isBetter(const Model& model) const;
   bool isDone();
   bool isOutOfTime() const;
-  InlierCounts inlierCounts(const FocalPose& pose) const;
+  InlierCounts inlierCounts(const QueryPose& pose) const;
 
   const sac::HybridRansacOptions& options_;
   Clock::time_point start_;

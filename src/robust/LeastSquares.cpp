@@ -1,39 +1,60 @@
 #include "robust/LeastSquares.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "robust/FixedSize.hpp"
 #include "robust/toPlain.hpp"
 
 namespace hybridgv {
 namespace robust {
 namespace {
 
-using Vector7 = Eigen::Matrix<double, kParameters, 1>;
+using correspondences::kPoseParameters;
 
-// The cost at a pose, with its derivatives.
+template <int N>
+using Vector = Eigen::Matrix<double, N, 1>;
+template <int N>
+using Matrix = Eigen::Matrix<double, N, N>;
+
+// The cost at a pose, with its derivatives by the N parameters that are estimated.
+template <int N>
 struct Linearization {
   double cost = 0;
-  Vector7 gradient;
-  Matrix7 hessian;
+  Vector<N> gradient;
+  Matrix<N> hessian;
   bool isFinite() const { return std::isfinite(cost) && gradient.allFinite() && hessian.allFinite(); }
 };
 
-Linearization linearize(const LeastSquaresProblem& problem, const FocalPose& pose) {
+// Where the kernels have the derivatives by an estimated parameter: they derive by log f also if it is known.
+int kernelParameter(Intrinsics estimated, int parameter) {
+  return parameter < kPoseParameters || estimated.focalLength ? parameter : parameter + 1;
+}
+
+NormalEquations normalEquations(const LeastSquaresProblem& problem, const QueryPose& pose) {
   const PlainPose plain = toPlain(pose);
   NormalEquations sums;
   if (problem.kinds.points) problem.kernels->addPoints(problem.points, plain, problem.pointLoss, sums);
   if (problem.kinds.rays) problem.kernels->addRays(problem.rays, plain, problem.rayLoss, sums);
-  Linearization result;
+  return sums;
+}
+
+template <int N>
+Linearization<N> linearize(const LeastSquaresProblem& problem, const QueryPose& pose) {
+  const NormalEquations sums = normalEquations(problem, pose);
+  Linearization<N> result;
   result.cost = sums.cost;
-  for (int row = 0, k = 0; row < kParameters; ++row) {
-    result.gradient[row] = sums.gradient[row];
-    for (int column = row; column < kParameters; ++column, ++k)
-      result.hessian(row, column) = result.hessian(column, row) = sums.hessian[k];
+  for (int row = 0; row < N; ++row) {
+    const int from = kernelParameter(problem.estimated, row);
+    result.gradient[row] = sums.gradient[from];
+    for (int column = row; column < N; ++column) {
+      const double entry = sums.hessian[from][kernelParameter(problem.estimated, column)];
+      result.hessian(row, column) = entry;
+      result.hessian(column, row) = entry;
+    }
   }
   return result;
 }
@@ -50,46 +71,51 @@ void orthonormalize(Eigen::Matrix3d& rotation) {
   rotation.col(2) = rotation.col(0).cross(rotation.col(1));
 }
 
-FocalPose moved(const FocalPose& pose, const Vector7& step, const LeastSquaresOptions& options) {
-  FocalPose result = pose;
-  result.rotation = pose.rotation * rotationOf(step.head<3>());
-  orthonormalize(result.rotation);
-  result.position += step.segment<3>(3);
+double movedFocalLength(double focalLength, double logStep, const LeastSquaresOptions& options) {
   const double least = std::max(options.minFocalLength, std::numeric_limits<double>::min());  // positive also after rounding
-  result.focalLength = std::clamp(pose.focalLength * std::exp(step[6]), least, options.maxFocalLength);
+  return std::clamp(focalLength * std::exp(logStep), least, options.maxFocalLength);
+}
+
+template <int N>
+QueryPose moved(const QueryPose& pose, const Vector<N>& step, Intrinsics estimated, const LeastSquaresOptions& options) {
+  QueryPose result = pose;
+  result.rotation = pose.rotation * rotationOf(step.template head<3>());
+  orthonormalize(result.rotation);
+  result.position += step.template segment<3>(3);
+  if constexpr (N > kPoseParameters) {
+    if (estimated.focalLength) result.focalLength = movedFocalLength(pose.focalLength, step[kPoseParameters], options);
+    if (estimated.radial) result.distortion += step[N - 1];
+  }
   return result;
 }
 
 // Solves (hessian + damping diag(hessian)) step = -gradient, in units in which the diagonal is 1. A parameter without influence
 // stays.
-Vector7 dampedStep(const Linearization& at, double damping) {
-  const Vector7 scale = at.hessian.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.; });
-  Matrix7 matrix = scale.asDiagonal() * at.hessian * scale.asDiagonal();
+template <int N>
+Vector<N> dampedStep(const Linearization<N>& at, double damping) {
+  const Vector<N> scale = at.hessian.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.; });
+  Matrix<N> matrix = scale.asDiagonal() * at.hessian * scale.asDiagonal();
   matrix.diagonal().setConstant(1 + damping);
   return -scale.cwiseProduct(matrix.llt().solve(scale.cwiseProduct(at.gradient)));
 }
 
-}  // namespace
-
-LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss) {
-  return {&kernels(), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds};
-}
-
-LeastSquaresResult minimize(const LeastSquaresProblem& problem, const FocalPose& start, const LeastSquaresOptions& options) {
+template <int N>
+LeastSquaresResult minimizeFixed(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options) {
   constexpr double kMaxDamping = 1e10, kMinDamping = 1e-12;
   LeastSquaresResult result;
   result.pose = start;
-  Linearization current = linearize(problem, start);
+  Linearization<N> current = linearize<N>(problem, start);
   if (!current.isFinite()) {
     result.cost = std::numeric_limits<double>::infinity();
+    result.information = Matrix<N>::Zero();
     return result;
   }
   double damping = 1e-4;
   while (!result.converged && result.iterations < options.maxIterations) {
     ++result.iterations;
-    const Vector7 step = dampedStep(current, damping);
-    const FocalPose candidate = moved(result.pose, step, options);
-    const Linearization next = linearize(problem, candidate);
+    const Vector<N> step = dampedStep(current, damping);
+    const QueryPose candidate = moved<N>(result.pose, step, problem.estimated, options);
+    const Linearization<N> next = linearize<N>(problem, candidate);
     if (next.cost < current.cost && next.isFinite()) {
       result.converged = current.cost - next.cost <= options.minRelativeDecrease * current.cost;
       result.pose = candidate;
@@ -106,21 +132,29 @@ LeastSquaresResult minimize(const LeastSquaresProblem& problem, const FocalPose&
   return result;
 }
 
-Matrix7 information(const LeastSquaresProblem& problem, const FocalPose& pose) { return linearize(problem, pose).hessian; }
+}  // namespace
 
-bool invertInformation(const Matrix7& information, Matrix7& covariance) {
-  // Smallest eigenvalue of the information in units in which every parameter alone has information 1.
-  constexpr double kSmallest = 1e-13;
-  const Vector7 diagonal = information.diagonal();
-  if (!information.allFinite() || !(diagonal.minCoeff() > 0)) return false;
-  const Vector7 scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Matrix7 correlation = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix7> eigen(correlation);
-  if (!(eigen.eigenvalues()[0] > kSmallest)) return false;
-  const Matrix7 inverse =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
-  return covariance.allFinite();
+LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss,
+                                Intrinsics estimated) {
+  return {&kernels(), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds, estimated};
+}
+
+LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options) {
+  return withFixedSize(problem.estimated.parameters(),
+                       [&](auto size) { return minimizeFixed<decltype(size)::value>(problem, start, options); });
+}
+
+ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose& pose) {
+  return withFixedSize(problem.estimated.parameters(),
+                       [&](auto size) { return ParameterMatrix(linearize<decltype(size)::value>(problem, pose).hessian); });
+}
+
+ParameterMatrix byKernelParameters(const ParameterMatrix& matrix, Intrinsics estimated) {
+  ParameterMatrix result = ParameterMatrix::Zero(kMostParameters, kMostParameters);
+  for (int row = 0; row < matrix.rows(); ++row)
+    for (int column = 0; column < matrix.cols(); ++column)
+      result(kernelParameter(estimated, row), kernelParameter(estimated, column)) = matrix(row, column);
+  return result;
 }
 
 }  // namespace robust

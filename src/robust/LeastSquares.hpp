@@ -1,19 +1,18 @@
-// Levenberg-Marquardt on the pose and focal length of the query.
+// Levenberg-Marquardt on the query's pose and what is estimated of its camera.
 #pragma once
 
-#include <Eigen/Core>
 #include <limits>
 
 #include "correspondences/CorrespondenceArrays.hpp"
+#include "robust/ParameterMatrix.hpp"
 #include "robust/PerKind.hpp"
+#include "robust/QueryPose.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
 namespace robust {
 
 using correspondences::CorrespondenceArrays;
-
-using Matrix7 = Eigen::Matrix<double, kParameters, kParameters>;
 
 // The problem: minimize over the correspondences of the kinds that take part the sum of precision * scale^2 rho((error / scale)^2).
 struct LeastSquaresProblem {
@@ -22,6 +21,7 @@ struct LeastSquaresProblem {
   RayArrays rays;
   KindLoss pointLoss, rayLoss;
   Kinds kinds = kBothKinds;  // that take part
+  Intrinsics estimated;      // the others keep the value that they have in the pose
 };
 
 struct LeastSquaresOptions {
@@ -32,24 +32,26 @@ struct LeastSquaresOptions {
 };
 
 struct LeastSquaresResult {
-  FocalPose pose;
+  QueryPose pose;
   double cost = 0;
-  Matrix7 information = Matrix7::Zero();  // J^T W J at the result
+  ParameterMatrix information;  // J^T W J at the result
   bool converged = false;
   int iterations = 0;
 };
 
-LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss);
+// With both kinds.
+LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss,
+                                Intrinsics estimated = {});
 
 // Never worse than the start: the cost of the result is at most that of the start. A start without finite cost or derivatives is
-// returned as it is, with converged = false and infinite cost.
-LeastSquaresResult minimize(const LeastSquaresProblem& problem, const FocalPose& start, const LeastSquaresOptions& options = {});
+// returned as it is, with converged = false, infinite cost and information 0.
+LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options = {});
 
 // J^T W J at a pose.
-Matrix7 information(const LeastSquaresProblem& problem, const FocalPose& pose);
+ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose& pose);
 
-// The inverse of a 7x7 information matrix; false if the data do not fix all seven parameters (to working precision).
-bool invertInformation(const Matrix7& information, Matrix7& covariance);
+// A matrix over all parameters by which the kernels derive, with zeros for those that are not estimated.
+ParameterMatrix byKernelParameters(const ParameterMatrix& matrix, Intrinsics estimated);
 
 }  // namespace robust
 }  // namespace hybridgv

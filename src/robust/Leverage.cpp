@@ -14,16 +14,18 @@ constexpr double kMaxLeverage = 0.99;
 
 }  // namespace
 
-std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const FocalPose& pose) {
+std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const QueryPose& pose) {
   std::vector<double> leverages(correspondences::padded(problem.rays.size), 0);
-  Matrix7 covariance;
-  if (problem.kinds.rays && invertInformation(information(problem, pose), covariance))
-    problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, covariance.data(), leverages.data());
+  ParameterMatrix covariance;
+  if (problem.kinds.rays && invertInformation(information(problem, pose), covariance)) {
+    const ParameterMatrix all = byKernelParameters(covariance, problem.estimated);
+    problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, all.data(), leverages.data());
+  }
   leverages.resize(problem.rays.size);
   return leverages;
 }
 
-correspondences::PaddedValues narrowingByLeverage(const LeastSquaresProblem& problem, const FocalPose& pose) {
+correspondences::PaddedValues narrowingByLeverage(const LeastSquaresProblem& problem, const QueryPose& pose) {
   std::vector<double> result = rayLeverages(problem, pose);
   for (double& value : result) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
   return {std::move(result), 1};

@@ -81,29 +81,30 @@ void allowForHiddenErrors(double& ray, double& point) {
 
 }  // namespace
 
-LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength)
-    : scorer_(scorer), chance_(chance), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength) {}
+LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength,
+                               Intrinsics estimated)
+    : scorer_(scorer), chance_(chance), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength), estimated_(estimated) {}
 
-FocalPose LocalOptimizer::refine(const FocalPose& start) const {
+QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   struct Stage {
     double rays, points;  // in thresholds
     Steps steps;
   };
   constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}};
   const double ray = scorer_.maxEpipolarError(), point = scorer_.maxReprojectionError();
-  FocalPose pose = start;
+  QueryPose pose = start;
   for (const Stage& stage : stages)
     pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, kBothKinds, stage.steps);
   pose = minimized(truncatedLoss(ray), truncatedLoss(point), pose, moreThanChance(pose), {10, 1e-4});
   return settle(pose, moreThanChance(pose));
 }
 
-FocalPose LocalOptimizer::settle(const FocalPose& start, const Kinds& kinds) const {
+QueryPose LocalOptimizer::settle(const QueryPose& start, const Kinds& kinds) const {
   return likeliest(start, kinds, 2, {10, 1e-4});
 }
 
-FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
-  FocalPose pose = start;
+QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
+  QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
     const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
     pose = minimized(at.rays.loss(), at.points.loss(), pose, kinds, steps);
@@ -111,9 +112,9 @@ FocalPose LocalOptimizer::likeliest(const FocalPose& start, const Kinds& kinds, 
   return pose;
 }
 
-FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Kinds& kinds, int rounds, const Steps& steps,
+QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
                                         PaddedValues& narrowing) const {
-  FocalPose pose = start;
+  QueryPose pose = start;
   narrowing = PaddedValues();
   for (int round = 0; round < rounds; ++round) {
     const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
@@ -124,7 +125,7 @@ FocalPose LocalOptimizer::withoutLevers(const FocalPose& start, const Kinds& kin
   return pose;
 }
 
-FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const {
+QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {
   const std::vector<double> squaredErrors = scorer_.squaredPointErrors(pose);
   const double squaredThreshold = scorer_.maxReprojectionError() * scorer_.maxReprojectionError();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -136,13 +137,13 @@ FocalPose LocalOptimizer::atDistance(const FocalPose& pose, double factor) const
     }
   const Eigen::Vector3d middle = sum / std::max(count, 1);
   const Eigen::Vector3d axis = pose.rotation.col(2);
-  FocalPose result = pose;
+  QueryPose result = pose;
   result.position -= (factor - 1) * axis.dot(middle - pose.position) * axis;
   result.focalLength = std::clamp(factor * pose.focalLength, minFocalLength_, maxFocalLength_);
   return result;
 }
 
-FocalPose LocalOptimizer::minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const FocalPose& start,
+QueryPose LocalOptimizer::minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const QueryPose& start,
                                     const Kinds& kinds, const Steps& steps) const {
   return minimize(problem(rayLoss, pointLoss, kinds), start, limits(steps)).pose;
 }
@@ -157,12 +158,12 @@ LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
 }
 
 LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const {
-  LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss);
+  LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss, estimated_);
   result.kinds = kinds;
   return result;
 }
 
-Kinds LocalOptimizer::moreThanChance(const FocalPose& pose) const {
+Kinds LocalOptimizer::moreThanChance(const QueryPose& pose) const {
   const Evaluation evaluation = scorer_.evaluate(pose);
   const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
   const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), pose.focalLength),
@@ -170,7 +171,7 @@ Kinds LocalOptimizer::moreThanChance(const FocalPose& pose) const {
   return kinds.rays || kinds.points ? kinds : kBothKinds;
 }
 
-SquaredErrors LocalOptimizer::squaredErrors(const FocalPose& pose, const Kinds& kinds) const {
+SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& kinds) const {
   SquaredErrors result;
   if (kinds.rays) result.rays = scorer_.squaredRayErrors(pose);
   if (kinds.points) result.points = scorer_.squaredPointErrors(pose);
@@ -189,13 +190,13 @@ Noise LocalOptimizer::noise(const SquaredErrors& errors, double focalLength) con
           pointMixture(point, {points.size(), arrays.points().size(), maxPoint, chance_.pointShare()})};
 }
 
-double LocalOptimizer::logLikelihood(const FocalPose& pose) const {
+double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
   const SquaredErrors errors = squaredErrors(pose, kBothKinds);
   const Noise at = noise(errors, pose.focalLength);
   return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points);
 }
 
-FinalPose LocalOptimizer::polish(const FocalPose& start, bool optimize) const {
+FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   FinalPose result;
   const Kinds kinds = moreThanChance(start);
   PaddedValues narrowing;

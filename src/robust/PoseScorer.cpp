@@ -71,7 +71,7 @@ int PoseScorer::add(const Chunk& chunk, const PlainPose& pose, Evaluation& evalu
   return part.inliers;
 }
 
-Evaluation PoseScorer::evaluate(const FocalPose& pose) const {
+Evaluation PoseScorer::evaluate(const QueryPose& pose) const {
   const PlainPose plain = toPlain(pose);
   Evaluation result;
   for (const Chunk& chunk : chunks_) add(chunk, plain, result);
@@ -79,7 +79,7 @@ Evaluation PoseScorer::evaluate(const FocalPose& pose) const {
   return result;
 }
 
-Evaluation PoseScorer::evaluate(const FocalPose& pose, const Expectation& expectation) const {
+Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expectation) const {
   const PlainPose plain = toPlain(pose);
   SequentialTest test(expectation);
   Evaluation result;
@@ -94,21 +94,21 @@ Evaluation PoseScorer::evaluate(const FocalPose& pose, const Expectation& expect
   return result;
 }
 
-std::vector<double> PoseScorer::squaredRayErrors(const FocalPose& pose) const {
+std::vector<double> PoseScorer::squaredRayErrors(const QueryPose& pose) const {
   std::vector<double> errors(rays_.size + correspondences::kPadding);
   kernels_.squaredRayErrors(rays_, toPlain(pose), errors.data());
   errors.resize(rays_.size);
   return errors;
 }
 
-std::vector<double> PoseScorer::squaredPointErrors(const FocalPose& pose) const {
+std::vector<double> PoseScorer::squaredPointErrors(const QueryPose& pose) const {
   std::vector<double> errors(points_.size + correspondences::kPadding);
   kernels_.squaredPointErrors(points_, toPlain(pose), errors.data());
   errors.resize(points_.size);
   return errors;
 }
 
-PerKind<std::vector<char>> PoseScorer::inliers(const FocalPose& pose) const {
+PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose) const {
   const auto below = [](const std::vector<double>& errors, double threshold) {
     std::vector<char> mask(errors.size());
     std::transform(errors.begin(), errors.end(), mask.begin(), [&](double e) { return e < threshold * threshold; });

@@ -6,6 +6,7 @@
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/PerKind.hpp"
+#include "robust/QueryPose.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -35,14 +36,14 @@ class PoseScorer {
   PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring);
 
   // Over all correspondences.
-  Evaluation evaluate(const FocalPose& pose) const;
+  Evaluation evaluate(const QueryPose& pose) const;
   // The same, given up early where there is no hope.
-  Evaluation evaluate(const FocalPose& pose, const Expectation& expectation) const;
+  Evaluation evaluate(const QueryPose& pose, const Expectation& expectation) const;
   // Masks of the correspondences whose error is below their kind's threshold.
-  PerKind<std::vector<char>> inliers(const FocalPose& pose) const;
+  PerKind<std::vector<char>> inliers(const QueryPose& pose) const;
   // Errors of one kind at a pose, infinite for those that are no inliers.
-  std::vector<double> squaredRayErrors(const FocalPose& pose) const;
-  std::vector<double> squaredPointErrors(const FocalPose& pose) const;
+  std::vector<double> squaredRayErrors(const QueryPose& pose) const;
+  std::vector<double> squaredPointErrors(const QueryPose& pose) const;
 
   const CorrespondenceArrays& arrays() const { return arrays_; }
   double maxEpipolarError() const { return maxEpipolarError_; }

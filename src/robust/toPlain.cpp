@@ -3,7 +3,7 @@
 namespace hybridgv {
 namespace robust {
 
-PlainPose toPlain(const FocalPose& pose) {
+PlainPose toPlain(const QueryPose& pose) {
   PlainPose plain;
   for (int k = 0; k < 3; ++k) {
     plain.r1[k] = pose.rotation(k, 0);
@@ -12,6 +12,7 @@ PlainPose toPlain(const FocalPose& pose) {
     plain.position[k] = pose.position[k];
   }
   plain.focalLength = pose.focalLength;
+  plain.distortion = pose.distortion;
   return plain;
 }
 

@@ -24,12 +24,12 @@ void setMasks(const robust::HybridSearch& search, HybridRansacResult& result) {
 }
 
 // From the normalized frame to the rig's, where positions are `unit` times larger.
-void setCovariance(const robust::Matrix7& normalized, double unit, HybridRansacResult& result) {
-  Eigen::Matrix<double, robust::kParameters, 1> scale = Eigen::Matrix<double, robust::kParameters, 1>::Ones();
-  scale.segment<3>(3).setConstant(unit);
-  const robust::Matrix7 covariance = scale.asDiagonal() * normalized * scale.asDiagonal();
-  Eigen::Map<robust::Matrix7>(result.covariance.data()) = covariance;
-  result.focalLengthStandardDeviation = result.pose.focalLength * std::sqrt(covariance(6, 6));
+void setCovariance(const robust::ParameterMatrix& normalized, double unit, robust::Intrinsics estimated,
+                   HybridRansacResult& result) {
+  const robust::ParameterMatrix covariance = robust::withPositionsTimes(unit, normalized);
+  result.covariance = robust::toFocalPoseMatrix(covariance, estimated);
+  result.focalLengthStandardDeviation =
+      result.pose.focalLength * std::sqrt(robust::varianceOfLogFocalLength(covariance, estimated));
 }
 
 void setStatistics(const robust::HybridSearch& search, HybridRansacResult& result) {
@@ -49,9 +49,9 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   result.score = search.best().evaluation.score;
   result.solver = search.best().solver;
   setMasks(search, result);
-  robust::Matrix7 covariance;
+  robust::ParameterMatrix covariance;
   const bool determined = robust::invertInformation(final.information, covariance);
-  if (determined) setCovariance(covariance, normalization.unit, result);
+  if (determined) setCovariance(covariance, normalization.unit, search.estimated(), result);
   result.failureReason = search.verdict(determined);
   result.success = result.failureReason == FailureReason::None;
 }

@@ -12,6 +12,8 @@ namespace {
 
 using namespace robust;
 
+constexpr int kParameters = correspondences::kFocalPoseParameters;
+
 double binomialTail(int n, int k, double p) {
   double sum = 0;
   for (int i = k; i <= n; ++i)

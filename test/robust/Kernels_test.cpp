@@ -131,6 +131,8 @@ TEST(Kernels, APoseThatIsNotANumberHasNoInliers) {
 
 // ---- normal equations ----
 
+constexpr int kParameters = correspondences::kFocalPoseParameters;
+
 constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Mixture};
 
 NormalEquations sums(SimdLevel level, const Data& data, const FocalPose& normalized, const KindLoss& loss, bool points, bool rays,
@@ -225,7 +227,8 @@ TEST(Kernels, ANarrowedLossIsNarrowerWithTheSameCurvatureAtEveryLevel) {
 TEST(Kernels, LeveragesAreEqualAtAllLevels) {
   test::Random random(test::testSeed(), 18);
   const Data data(random, 61, 4);
-  Eigen::Matrix<double, kParameters, kParameters> covariance = Eigen::Matrix<double, kParameters, kParameters>::Identity();
+  Eigen::Matrix<double, kMostParameters, kMostParameters> covariance;
+  covariance.setIdentity();
   covariance(2, 5) = covariance(5, 2) = 0.5;
   const PlainPose pose = data.plain(data.poses[0]);
   for (const Loss loss : kLosses) {
@@ -257,9 +260,9 @@ TEST(Kernels, OneRaysInformationIsTheSquareOfTheCentralDifferenceOfItsError) {
     if (!derivative.allFinite()) continue;
     const NormalEquations at = sums(math::supportedSimdLevel(), data, pose, {}, false, true);
     const double tolerance = 1e-5 * derivative.squaredNorm();
-    for (int row = 0, k = 0; row < kParameters; ++row)
-      for (int column = row; column < kParameters; ++column, ++k)
-        EXPECT_NEAR(at.hessian[k], derivative[row] * derivative[column], tolerance);
+    for (int row = 0; row < kParameters; ++row)
+      for (int column = row; column < kParameters; ++column)
+        EXPECT_NEAR(at.hessian[row][column], derivative[row] * derivative[column], tolerance);
   }
 }
 
@@ -282,9 +285,9 @@ TEST(Kernels, APointsInformationIsTheSquareOfTheCentralDifferencesOfItsProjectio
     const Eigen::Matrix<double, kParameters, kParameters> expected = derivative.transpose() * derivative;
     for (const SimdLevel level : levels()) {
       const NormalEquations at = sums(level, data, normalized, {}, true, false);
-      for (int row = 0, k = 0; row < kParameters; ++row)
-        for (int column = row; column < kParameters; ++column, ++k)
-          EXPECT_NEAR(at.hessian[k], expected(row, column),
+      for (int row = 0; row < kParameters; ++row)
+        for (int column = row; column < kParameters; ++column)
+          EXPECT_NEAR(at.hessian[row][column], expected(row, column),
                       1e-6 * std::sqrt(expected(row, row) * expected(column, column)) + 1e-3);
     }
   }
@@ -302,7 +305,9 @@ TEST(Kernels, NormalEquationsAreEqualAtAllLevels) {
       if (std::isfinite(expected.cost)) {
         EXPECT_NEAR(actual.cost, expected.cost, 1e-9 * expected.cost);
       }
-      for (int i = 0; i < kTriangle; ++i) EXPECT_NEAR(actual.hessian[i], expected.hessian[i], 1e-7 * expected.hessian[0]);
+      for (int row = 0; row < kParameters; ++row)
+        for (int column = row; column < kParameters; ++column)
+          EXPECT_NEAR(actual.hessian[row][column], expected.hessian[row][column], 1e-7 * expected.hessian[0][0]);
     }
   }
 }

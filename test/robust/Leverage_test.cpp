@@ -43,7 +43,7 @@ TEST(Leverage, OfRaysAloneSumsUpToTheNumberOfParameters) {
     const LeastSquaresProblem problem = makeProblem(arrays, kUnitNoise, kUnitNoise);
     const std::vector<double> leverages = rayLeverages(problem, arrays.normalization().apply(scene.truth));
     ASSERT_EQ(leverages.size(), static_cast<std::size_t>(size));
-    EXPECT_NEAR(std::accumulate(leverages.begin(), leverages.end(), 0.), kParameters, 1e-5);
+    EXPECT_NEAR(std::accumulate(leverages.begin(), leverages.end(), 0.), problem.estimated.parameters(), 1e-5);
     for (const double h : leverages) EXPECT_TRUE(h >= 0 && h <= 1 + 1e-6) << h;
   }
 }
@@ -90,9 +90,9 @@ TEST(Leverage, NarrowsTheLossOfNoRayWithoutEnd) {
 // The pose with the conditional mean of all parameters, given that the focal length is wrong by some standard deviations.
 FocalPose withWrongFocalLength(const correspondences::CorrespondenceArrays& arrays, const LeastSquaresProblem& problem,
                                const FocalPose& pose, double deviations) {
-  Matrix7 covariance;
+  ParameterMatrix covariance;
   EXPECT_TRUE(invertInformation(information(problem, pose), covariance));
-  const Eigen::Matrix<double, kParameters, 1> step = deviations / std::sqrt(covariance(6, 6)) * covariance.col(6);
+  const Eigen::VectorXd step = deviations / std::sqrt(covariance(6, 6)) * covariance.col(6);
   FocalPose result = pose;
   const Eigen::Vector3d turn = step.head<3>();
   result.rotation = pose.rotation * Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();

@@ -204,6 +204,10 @@ Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double square
 
 // ---- normal equations ----
 
+// A camera without distortion: the derivatives are by rotation, position and log f.
+constexpr int kParameters = correspondences::kFocalPoseParameters;
+constexpr int kTriangle = kParameters * (kParameters + 1) / 2;
+
 using Row = Real[kParameters];
 
 inline Real toTheEighth(Real q) {
@@ -347,9 +351,9 @@ class PointSums {
       turnPosition(pose, entries);
       for (int row = 0; row < kParameters; ++row) hessian[row][column] = entries[row];
     }
-    for (int row = 0, k = 0; row < kParameters; ++row) {
+    for (int row = 0; row < kParameters; ++row) {
       total.gradient[row] += gradient[row];
-      for (int column = row; column < kParameters; ++column, ++k) total.hessian[k] += hessian[row][column];
+      for (int column = row; column < kParameters; ++column) total.hessian[row][column] += hessian[row][column];
     }
   }
 
@@ -399,8 +403,10 @@ class NormalEquationsSum {
     }
   }
   void addTo(NormalEquations& total) const {
-    for (int i = 0; i < kParameters; ++i) total.gradient[i] += sum(gradient_[i]);
-    for (int i = 0; i < kTriangle; ++i) total.hessian[i] += sum(hessian_[i]);
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      total.gradient[row] += sum(gradient_[row]);
+      for (int column = row; column < kParameters; ++column, ++k) total.hessian[row][column] += sum(hessian_[k]);
+    }
   }
 
  private:
@@ -478,7 +484,7 @@ void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, const KindL
     Real quadraticForm{};
     for (int row = 0; row < kParameters; ++row)
       for (int column = 0; column < kParameters; ++column)
-        quadraticForm += covariance[row * kParameters + column] * derivatives[row] * derivatives[column];
+        quadraticForm += covariance[row * kMostParameters + column] * derivatives[row] * derivatives[column];
     const Real leverage = where(valid, weight / variance * quadraticForm, Real{});
     std::memcpy(leverages + i, &leverage, sizeof leverage);
   }

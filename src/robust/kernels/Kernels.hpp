@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "correspondences/ArrayViews.hpp"
+#include "correspondences/Intrinsics.hpp"
 #include "math/simd/SimdLevel.hpp"
 
 namespace hybridgv {
@@ -13,11 +14,13 @@ namespace robust {
 using correspondences::PointArrays;
 using correspondences::RayArrays;
 
-// A pose as the kernels read it: the columns r1, r2, r3 of the rotation (query -> rig), the position, the focal length.
+// A pose as the kernels read it: the columns r1, r2, r3 of the rotation (query -> rig), the position, the focal length, and the
+// distortion (QueryPose), which those for pinhole images take as 0.
 struct PlainPose {
   double r1[3], r2[3], r3[3];
   double position[3];
   double focalLength;
+  double distortion;
 };
 
 struct Score {
@@ -40,14 +43,15 @@ struct KindLoss {
   double odds = 1;       // of Loss::Mixture, at most 1e9
 };
 
-// The parameters are a small rotation in the query's frame (R -> R exp([.]x)), the position and log f. For residuals e with
-// derivatives J and weights W (precision times the derivative of rho), these are the sums J^T W J and J^T W e.
-constexpr int kParameters = 7;
-constexpr int kTriangle = kParameters * (kParameters + 1) / 2;
+// The parameters by which the kernels derive are a small rotation in the query's frame (R -> R exp([.]x)), the position, log f,
+// and the distortion, which those for pinhole images do not have. Which of them are estimated, LeastSquares decides.
+using correspondences::kMostParameters;
+
+// For residuals e with derivatives J and weights W (precision times the derivative of rho), the sums J^T W e and J^T W J.
 struct NormalEquations {
   double cost = 0;
-  double gradient[kParameters] = {};
-  double hessian[kTriangle] = {};  // upper triangle, row by row
+  double gradient[kMostParameters] = {};
+  double hessian[kMostParameters][kMostParameters] = {};  // the upper triangle
 };
 
 // One instruction set's versions. Ranges [begin, end) begin at a multiple of correspondences::kPadding and end at one or at the arrays' size.
@@ -60,7 +64,7 @@ struct Kernels {
   // Add to the sums. A point that is not in front of the query costs rho(infinity), as does a ray but for Loss::Quadratic.
   void (*addPoints)(const PointArrays&, const PlainPose&, const KindLoss&, NormalEquations&);
   void (*addRays)(const RayArrays&, const PlainPose&, const KindLoss&, NormalEquations&);
-  // W J C J^T of every ray, C a symmetric 7x7 matrix. `leverages` has room for the padding.
+  // W J C J^T of every ray, C a symmetric matrix of kMostParameters rows. `leverages` has room for the padding.
   void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
 };
 

@@ -1,0 +1,36 @@
+// Covariance and information of what is estimated.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "correspondences/Intrinsics.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+using correspondences::Intrinsics;
+
+// A square symmetric matrix over the parameters that are estimated: a small rotation in the query's frame (R -> R exp([.]x)), the
+// position, then log f and the distortion as far as the Intrinsics have them.
+using ParameterMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, correspondences::kMostParameters,
+                                      correspondences::kMostParameters>;
+
+// As the public results have it: over the parameters of a FocalPose.
+using FocalPoseMatrix = std::array<double, correspondences::kFocalPoseParameters * correspondences::kFocalPoseParameters>;
+
+// The inverse of an information matrix; false if the data do not fix all parameters (to working precision).
+bool invertInformation(const ParameterMatrix& information, ParameterMatrix& covariance);
+
+// The same matrix for positions that are measured in another unit: rows and columns of the position times `factor`.
+ParameterMatrix withPositionsTimes(double factor, ParameterMatrix matrix);
+
+// A focal length that is not estimated has zeros in its row and column. The distortion is left out: of a covariance, that is the
+// marginal one.
+FocalPoseMatrix toFocalPoseMatrix(const ParameterMatrix& matrix, Intrinsics estimated);
+
+// Where the focal length is not estimated, its logarithm has the variance 0.
+double varianceOfLogFocalLength(const ParameterMatrix& covariance, Intrinsics estimated);
+
+}  // namespace robust
+}  // namespace hybridgv

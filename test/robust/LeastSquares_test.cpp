@@ -1,0 +1,153 @@
+#include "robust/LeastSquares.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <numeric>
+
+#include "HybridScene.hpp"
+#include "robust/Leverage.hpp"
+
+namespace hybridgv {
+namespace {
+
+using namespace robust;
+using correspondences::CorrespondenceArrays;
+
+constexpr Intrinsics kUnknownFocalLength{true, false}, kKnownFocalLength{false, false};
+
+struct Data {
+  Data(test::Random& random, int rays, int points, double noise)
+      : scene(make(random, rays, points, noise)),
+        adapter(scene.adapter()),
+        arrays(adapter, correspondences::allIndices(scene.bearings.size()), correspondences::allIndices(scene.points.size())),
+        truth(arrays.normalization().apply(scene.truth)) {}
+  static test::HybridScene make(test::Random& random, int rays, int points, double noise) {
+    test::SceneOptions options;
+    options.rays = rays;
+    options.points = points;
+    options.imageNoise = noise;
+    return test::makeHybridScene(random, options);
+  }
+  LeastSquaresProblem problem(Intrinsics estimated) const { return makeProblem(arrays, {}, {}, estimated); }
+
+  test::HybridScene scene;
+  NoncentralHybridAdapter adapter;
+  CorrespondenceArrays arrays;
+  QueryPose truth;
+};
+
+QueryPose withFocalLength(QueryPose pose, double focalLength) {
+  pose.focalLength = focalLength;
+  return pose;
+}
+
+TEST(LeastSquares, FindsThePoseAndKeepsAKnownFocalLength) {
+  test::Random random(test::testSeed(), 140);
+  for (int i = 0; i < 20; ++i) {
+    const Data data(random, 12, 8, 0);
+    const FocalPose start = test::perturbed(random, data.truth, 0.02, 0.02, 0);
+    const LeastSquaresResult result = minimize(data.problem(kKnownFocalLength), withFocalLength(start, data.truth.focalLength));
+    EXPECT_TRUE(result.converged);
+    EXPECT_EQ(result.pose.focalLength, data.truth.focalLength);
+    EXPECT_LT((result.pose.rotation - data.truth.rotation).norm(), 1e-7);
+    EXPECT_LT((result.pose.position - data.truth.position).norm(), 1e-6);
+    EXPECT_EQ(result.information.rows(), kKnownFocalLength.parameters());
+  }
+}
+
+// Whoever knows the focal length knows the pose as well as the conditional distribution says.
+TEST(LeastSquares, CovarianceForAKnownFocalLengthIsTheConditionalOne) {
+  test::Random random(test::testSeed(), 141);
+  const Data data(random, 30, 20, 0);
+  ParameterMatrix known, unknown;
+  ASSERT_TRUE(invertInformation(information(data.problem(kKnownFocalLength), data.truth), known));
+  ASSERT_TRUE(invertInformation(information(data.problem(kUnknownFocalLength), data.truth), unknown));
+  const Eigen::VectorXd withFocal = unknown.col(6).head(6);
+  const Eigen::MatrixXd conditional = unknown.topLeftCorner(6, 6) - withFocal * withFocal.transpose() / unknown(6, 6);
+  ASSERT_EQ(known.rows(), 6);
+  EXPECT_LT((known - conditional).norm(), 1e-6 * known.norm());
+  EXPECT_EQ(varianceOfLogFocalLength(known, kKnownFocalLength), 0);
+  EXPECT_GT(varianceOfLogFocalLength(unknown, kUnknownFocalLength), 0);
+}
+
+// The squared error of the pose, measured in the stated covariance, is the number of parameters on average.
+TEST(LeastSquares, CovarianceIsThatOfTheErrors) {
+  constexpr double kNoise = 0.5;
+  constexpr int kScenes = 150;
+  for (const Intrinsics estimated : {kUnknownFocalLength, kKnownFocalLength}) {
+    test::Random random(test::testSeed(), 142);
+    double squares = 0;
+    for (int i = 0; i < kScenes; ++i) {
+      const Data data(random, 0, 40, kNoise);
+      const LeastSquaresResult result = minimize(data.problem(estimated), data.truth);
+      const Eigen::AngleAxisd turn(Eigen::Matrix3d(data.truth.rotation.transpose() * result.pose.rotation));
+      Eigen::VectorXd error(7);
+      error << turn.angle() * turn.axis(), result.pose.position - data.truth.position,
+          std::log(result.pose.focalLength / data.truth.focalLength);
+      const Eigen::VectorXd used = error.head(estimated.parameters());
+      squares += used.dot(result.information * used) / (kNoise * kNoise);
+    }
+    EXPECT_NEAR(squares / kScenes, estimated.parameters(), 1);
+  }
+}
+
+TEST(LeastSquares, ThreePointsFixThePoseOfAKnownCameraOnly) {
+  test::Random random(test::testSeed(), 143);
+  const Data data(random, 0, 3, 0);
+  ParameterMatrix covariance;
+  EXPECT_TRUE(invertInformation(information(data.problem(kKnownFocalLength), data.truth), covariance));
+  EXPECT_FALSE(invertInformation(information(data.problem(kUnknownFocalLength), data.truth), covariance));
+}
+
+TEST(LeastSquares, LeveragesOfRaysAloneSumUpToTheNumberOfEstimatedParameters) {
+  test::Random random(test::testSeed(), 144);
+  const Data data(random, 30, 0, 0.5);
+  for (const Intrinsics estimated : {kUnknownFocalLength, kKnownFocalLength}) {
+    const std::vector<double> leverages = rayLeverages(data.problem(estimated), data.truth);
+    EXPECT_NEAR(std::accumulate(leverages.begin(), leverages.end(), 0.), estimated.parameters(), 1e-5);
+  }
+}
+
+TEST(LeastSquares, AKindThatDoesNotTakePartDoesNotMatter) {
+  test::Random random(test::testSeed(), 145);
+  const Data data(random, 20, 20, 0.5);
+  LeastSquaresProblem rays = data.problem({}), points = rays, both = rays;
+  rays.kinds = {true, false};
+  points.kinds = {false, true};
+  const ParameterMatrix sum = information(rays, data.truth) + information(points, data.truth);
+  EXPECT_LT((information(both, data.truth) - sum).norm(), 1e-9 * sum.norm());
+  EXPECT_EQ(rayLeverages(points, data.truth), std::vector<double>(20, 0));
+}
+
+TEST(ParameterMatrix, OfAFocalPoseHasNoEntriesForWhatIsKnownAndLeavesTheDistortionOut) {
+  for (const Intrinsics estimated :
+       {Intrinsics{false, false}, Intrinsics{true, false}, Intrinsics{false, true}, Intrinsics{true, true}}) {
+    const int size = estimated.parameters();
+    ParameterMatrix matrix(size, size);
+    for (int row = 0; row < size; ++row)
+      for (int column = 0; column < size; ++column) matrix(row, column) = 1 + std::min(row, column);
+    const FocalPoseMatrix result = toFocalPoseMatrix(matrix, estimated);
+    for (int row = 0; row < 7; ++row)
+      for (int column = 0; column < 7; ++column) {
+        const bool isFocal = row == 6 || column == 6;
+        const double expected = isFocal && !estimated.focalLength ? 0 : 1 + std::min(row, column);
+        EXPECT_EQ(result[static_cast<std::size_t>(7 * row + column)], expected);
+      }
+  }
+}
+
+TEST(ParameterMatrix, FollowsTheUnitOfThePositions) {
+  ParameterMatrix matrix = ParameterMatrix::Ones(7, 7);
+  matrix = withPositionsTimes(3, matrix);
+  EXPECT_EQ(matrix(0, 0), 1);
+  EXPECT_EQ(matrix(3, 0), 3);
+  EXPECT_EQ(matrix(1, 5), 3);
+  EXPECT_EQ(matrix(4, 5), 9);
+  EXPECT_EQ(matrix(6, 3), 3);
+  EXPECT_EQ(matrix(6, 6), 1);
+}
+
+}  // namespace
+}  // namespace hybridgv
