@@ -60,12 +60,10 @@ TEST(Misuse, RansacRefusesValuesThatNoEnumerationHas) {
   for (const int value : {-1, 2, 1000}) {
     HybridRansacOptions options;
     options.scoring = static_cast<sac::Scoring>(value);
-    expectRefused(
-        "scoring " + std::to_string(value), [&] { sac::hybridRansac(adapter, options); }, "scoring");
+    expectRefused("scoring " + std::to_string(value), "scoring", [&] { sac::hybridRansac(adapter, options); });
     options = HybridRansacOptions();
     options.sampling = static_cast<sac::Sampling>(value);
-    expectRefused(
-        "sampling " + std::to_string(value), [&] { sac::hybridRansac(adapter, options); }, "sampling");
+    expectRefused("sampling " + std::to_string(value), "sampling", [&] { sac::hybridRansac(adapter, options); });
   }
 }
 
@@ -77,8 +75,8 @@ TEST(Misuse, RansacRefusesAStartOutsideTheFocalBounds) {
   options.initialPose = FocalPose();
   for (const double focalLength : {499.0, 1001.0}) {
     options.initialPose->focalLength = focalLength;
-    expectRefused(
-        "start with focal length " + std::to_string(focalLength), [&] { sac::hybridRansac(adapter, options); }, "initialPose");
+    const std::string wrong = "start with focal length " + std::to_string(focalLength);
+    expectRefused(wrong, "initialPose", [&] { sac::hybridRansac(adapter, options); });
   }
   for (const double focalLength : {500.0, 1000.0}) {
     options.initialPose->focalLength = focalLength;
