@@ -12,8 +12,6 @@ using Number = std::complex<double>;
 
 constexpr double kLoopDeviation = 0.4;
 
-int solutionCount(Sharing sharing) { return sharing == Sharing::AtMostTwo ? 56 : sharing == Sharing::Three ? 50 : 36; }
-
 KnownSystem randomRealSystem(Sharing sharing, test::Random& random) {
   static const std::vector<int> kRaysPerCamera[] = {{1, 1, 1, 1, 1}, {3, 1, 1}, {4, 1}};
   const test::MinimalProblem problem = test::makeMinimalProblem(random, kRaysPerCamera[static_cast<int>(sharing)], 1);
@@ -25,13 +23,16 @@ KnownSystem randomRealSystem(Sharing sharing, test::Random& random) {
   const Solution truth = solutionOf(problem.truth, frame, point);
   KnownSystem system{sharing, parametersIn(frame, sharing, rays, point), {KnownSolution{}}};
   const Number unknowns[] = {truth.x, truth.y, truth.alpha, truth.beta, truth.d};
-  for (int k = 0; k < kUnknowns; ++k)
-    system.solutions[0].re[k] = unknowns[k].real(), system.solutions[0].im[k] = unknowns[k].imag();
+  for (int k = 0; k < kUnknowns; ++k) {
+    system.solutions[0].re[k] = unknowns[k].real();
+    system.solutions[0].im[k] = unknowns[k].imag();
+  }
   return system;
 }
 
 static void perturb(ComplexNumber& number, double deviation, test::Random& random) {
-  number.re += deviation * random.normal(), number.im += deviation * random.normal();
+  number.re += deviation * random.normal();
+  number.im += deviation * random.normal();
 }
 
 Parameters perturbed(Sharing sharing, const Parameters& parameters, double deviation, test::Random& random) {
@@ -39,15 +40,17 @@ Parameters perturbed(Sharing sharing, const Parameters& parameters, double devia
   for (int j = 0; j < kRays; ++j) {
     for (ComplexNumber& q : p.direction[j]) perturb(q, deviation, random);
     for (ComplexNumber& m : p.moment[j]) perturb(m, deviation, random);
-    perturb(p.image[j], deviation / 2, random), perturb(p.imageBar[j], deviation / 2, random);
+    perturb(p.image[j], deviation / 2, random);
+    perturb(p.imageBar[j], deviation / 2, random);
   }
-  perturb(p.pointImage, deviation / 2, random), perturb(p.pointImageBar, deviation / 2, random);
+  perturb(p.pointImage, deviation / 2, random);
+  perturb(p.pointImageBar, deviation / 2, random);
   restoreSharedCentre(sharing, &p);
   return p;
 }
 
 void restoreSharedCentre(Sharing sharing, Parameters* parameters) {
-  for (int j = 0; j < sharedRays(sharing); ++j) {  // q x (0, 0, kSharedCentre)
+  for (int j = 0; j < caseOf(sharing).sharedRays; ++j) {  // q x (0, 0, kSharedCentre)
     const ComplexNumber* q = parameters->direction[j];
     ComplexNumber* m = parameters->moment[j];
     m[0] = {kSharedCentre * q[1].re, kSharedCentre * q[1].im};
@@ -57,13 +60,9 @@ void restoreSharedCentre(Sharing sharing, Parameters* parameters) {
 }
 
 bool moveTo(const Parameters& parameters, KnownSystem* system) {
-  const std::size_t count = system->solutions.size();
-  system->solutions = trackCarefully<H51fSystem>(straightHomotopy(system->parameters, parameters), system->solutions);
+  const Homotopy<double> way = straightHomotopy(system->parameters, parameters);
   system->parameters = parameters;
-  for (std::size_t i = 0; i < system->solutions.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (coincide(system->solutions[i], system->solutions[j])) return false;
-  return system->solutions.size() == count;
+  return moveAll<H51fSystem>(way, &system->solutions);
 }
 
 KnownSystem solveByMonodromy(Sharing sharing, int idleLoops, test::Random& random) {

@@ -7,6 +7,7 @@
 #include "Random.hpp"
 #include "solvers/h51f/PathProblem.hpp"
 #include "solvers/h51f/Reduction.hpp"
+#include "solvers/h51f/StartSystems.hpp"
 
 namespace hybridgv {
 namespace solvers {
@@ -19,9 +20,6 @@ struct KnownSystem {
   Parameters parameters;
   std::vector<KnownSolution> solutions;
 };
-
-// 56, 50, 36
-int solutionCount(Sharing sharing);
 
 // A random real sample with its true solution, normalized and arranged.
 KnownSystem randomRealSystem(Sharing sharing, test::Random& random);

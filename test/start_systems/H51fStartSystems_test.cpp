@@ -63,12 +63,16 @@ TEST(H51fSystem, HasTheDerivativesOfItsValues) {
       Number up[N], down[N];
       for (int l = 0; l < N; ++l) up[l] = down[l] = point[l];
       const double dt = k == N ? kStep : 0;
-      if (k < H51fSystem::kAbsolute)
-        up[k] += kStep, down[k] -= kStep;
-      else if (k < N)
-        up[k] *= 1 + kStep, down[k] *= 1 - kStep;
+      if (k < H51fSystem::kAbsolute) {
+        up[k] += kStep;
+        down[k] -= kStep;
+      } else if (k < N) {
+        up[k] *= 1 + kStep;
+        down[k] *= 1 - kStep;
+      }
       Rows rowsUp, rowsDown;
-      evaluateAt(homotopy, t + dt, up, rowsUp), evaluateAt(homotopy, t - dt, down, rowsDown);
+      evaluateAt(homotopy, t + dt, up, rowsUp);
+      evaluateAt(homotopy, t - dt, down, rowsDown);
       for (int j = 0; j < N; ++j) {
         const Number derivative = entry(rows, j, k < N ? k : N + 1);
         const Number expected = (entry(rowsUp, j, N) - entry(rowsDown, j, N)) / (2 * kStep);
@@ -84,7 +88,8 @@ TEST(H51fSystem, PoseAndSolutionAreInverse) {
     const MinimalProblem problem = makeMinimalProblem(random, {1, 1, 1, 1, 1}, 1);
     solvers::h51f::Frame frame;
     ASSERT_TRUE(solvers::h51f::normalize(Sharing::AtMostTwo, problem.rays.data(), problem.points[0], &frame));
-    frame.turn = random.rotation(), frame.phase = std::polar(1.0, random.uniform(0, 6));
+    frame.turn = random.rotation();
+    frame.phase = std::polar(1.0, random.uniform(0, 6));
     const FocalPose pose =
         solvers::h51f::poseOf(solvers::h51f::solutionOf(problem.truth, frame, problem.points[0]), frame, problem.points[0]);
     EXPECT_TRUE(isFocalPoseNear(pose, problem.truth, 1e-12, 1e-10));
@@ -93,7 +98,7 @@ TEST(H51fSystem, PoseAndSolutionAreInverse) {
 
 // The table's solutions, refined to double precision.
 KnownSystem tableSystem(Sharing sharing, double* largestStep) {
-  const solvers::h51f::StartSystem& table = solvers::h51f::startSystem(sharing);
+  const solvers::h51f::StartSystem& table = *solvers::h51f::caseOf(sharing).start;
   KnownSystem system{sharing, table.parameters, std::vector<KnownSolution>(static_cast<std::size_t>(table.paths))};
   std::vector<int> all;
   for (int i = 0; i < table.paths; ++i) {
@@ -125,7 +130,7 @@ void expectSharedCentre(Sharing sharing, const solvers::h51f::Parameters& parame
 
 class StartSystems : public testing::TestWithParam<Sharing> {};
 INSTANTIATE_TEST_SUITE_P(, StartSystems, testing::Values(Sharing::AtMostTwo, Sharing::Three, Sharing::Four),
-                         [](const auto& info) { return std::to_string(solvers::h51f::solutionCount(info.param)) + "Solutions"; });
+                         [](const auto& info) { return std::string(solvers::h51f::caseOf(info.param).name); });
 
 // Another seed's monodromy finds as many solutions, and moved to the table's parameters they are the table's.
 TEST_P(StartSystems, AreCompleteByAnIndependentMonodromy) {
@@ -133,11 +138,11 @@ TEST_P(StartSystems, AreCompleteByAnIndependentMonodromy) {
   const KnownSystem table = tableSystem(GetParam(), &largestStep);
   expectSharedCentre(GetParam(), table.parameters);
   EXPECT_LT(largestStep, 1e-5) << "a solution in the table is not one";
-  EXPECT_EQ(static_cast<int>(table.solutions.size()), solvers::h51f::solutionCount(GetParam()));
+  EXPECT_EQ(static_cast<int>(table.solutions.size()), solvers::h51f::caseOf(GetParam()).solutions);
 
   Random random(testSeed(), 3);
   KnownSystem system = solvers::h51f::solveByMonodromy(GetParam(), 6, random);
-  EXPECT_EQ(static_cast<int>(system.solutions.size()), solvers::h51f::solutionCount(GetParam()));
+  EXPECT_EQ(static_cast<int>(system.solutions.size()), solvers::h51f::caseOf(GetParam()).solutions);
   ASSERT_TRUE(solvers::h51f::moveTo(table.parameters, &system));
   for (const KnownSolution& expected : system.solutions) {
     int equal = 0;

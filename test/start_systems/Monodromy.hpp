@@ -44,6 +44,17 @@ Solutions<System> trackCarefully(const typename System::template Homotopy<double
   return result;
 }
 
+// Moves the solutions to the end of the homotopy. False if a path fails or two end points coincide.
+template <class System>
+bool moveAll(const typename System::template Homotopy<double>& homotopy, Solutions<System>* solutions) {
+  const std::size_t count = solutions->size();
+  *solutions = trackCarefully<System>(homotopy, *solutions);
+  for (std::size_t i = 0; i < solutions->size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (coincide((*solutions)[i], (*solutions)[j])) return false;
+  return solutions->size() == count;
+}
+
 // Adds to the known solutions at `base` those that triangles base -> random() -> random() -> base lead to, until `idleLoops`
 // triangles in a row have given nothing new. connect(a, b) is the homotopy from parameters a to b.
 template <class System, class Parameters, class Connect, class RandomParameters>
@@ -55,7 +66,10 @@ void addByMonodromy(const Parameters& base, Connect connect, RandomParameters ra
     for (const auto& end : trackCarefully<System>(connect(third, base), moving)) {
       bool isNew = true;
       for (const auto& solution : *known) isNew = isNew && !coincide(solution, end);
-      if (isNew) known->push_back(end), idle = -1;
+      if (isNew) {
+        known->push_back(end);
+        idle = -1;
+      }
     }
   }
 }

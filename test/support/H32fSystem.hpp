@@ -87,7 +87,8 @@ struct H32fSystem {
     constexpr solvers::h51f::ComplexNumber kI{0, 1}, kTwo{2, 0}, kMinusTwo{-2, 0};
     const Complex<V> unity{V{} + 1, V{}};
     Dual<V> one{unity}, x{unknowns[X]}, y{unknowns[Y]}, d{unknowns[D]};
-    x.d[X] = y.d[Y] = unity, d.d[D] = unknowns[D];
+    x.d[X] = y.d[Y] = unity;
+    d.d[D] = unknowns[D];
     const auto &pi0 = data.parameter[PointImages], &pi1 = data.parameter[PointImages + 1];
     const auto &pib0 = data.parameter[PointImagesBar], &pib1 = data.parameter[PointImagesBar + 1];
     const Dual<V> xy = x * y, U = kMinusTwo * x, V_ = kMinusTwo * y;

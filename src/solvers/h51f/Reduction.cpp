@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "solvers/h51f/StartSystems.hpp"
+
 namespace hybridgv {
 namespace solvers {
 namespace h51f {
@@ -14,8 +16,6 @@ namespace h51f {
 using Eigen::Matrix3d;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
-using solvers::PointMatch;
-using solvers::RayMatch;
 using Number = std::complex<double>;
 
 static const Number kI(0, 1);
@@ -43,7 +43,7 @@ Sharing arrange(const RayMatch* rays, const PointMatch& point, RayMatch* arrange
     for (int k = 0; k < kRays; ++k) members[j] += sameCentre(rays[j], rays[k], point.point);
     if (members[j] > members[largest]) largest = j;
   }
-  const Sharing sharing = members[largest] < 3 ? Sharing::AtMostTwo : members[largest] == 3 ? Sharing::Three : Sharing::Four;
+  const Sharing sharing = sharingOf(members[largest]);
   double key[kRays];
   for (int j = 0; j < kRays; ++j) {
     const bool first = sharing == Sharing::AtMostTwo || sameCentre(rays[largest], rays[j], point.point);
@@ -64,7 +64,8 @@ bool normalize(Sharing sharing, const RayMatch* rays, const PointMatch& point, F
     meanDistance += rays[j].direction.cross(rays[j].centre - point.point).norm() / kRays;
     meanRadius += std::hypot(rays[j].u, rays[j].v) / (kRays + 1);
   }
-  frame->imageScale = 4 * meanRadius, frame->length = meanDistance;
+  frame->imageScale = 4 * meanRadius;
+  frame->length = meanDistance;
   if (sharing != Sharing::AtMostTwo) {
     const Vector3d toCentre = rays[0].centre - point.point, third = toCentre.normalized(), first = third.unitOrthogonal();
     frame->length = toCentre.norm() / kSharedCentre;
@@ -105,12 +106,15 @@ Parameters parametersIn(const Frame& frame, Sharing sharing, const RayMatch* ray
   const auto image = [&frame](double u, double v) { return frame.phase * Number(u, v) / frame.imageScale; };
   for (int j = 0; j < kRays; ++j) {
     Vector3d centre(0, 0, kSharedCentre);
-    if (j >= sharedRays(sharing)) centre = frame.turn * (rays[j].centre - frame.origin) / frame.length;
+    if (j >= caseOf(sharing).sharedRays) centre = frame.turn * (rays[j].centre - frame.origin) / frame.length;
     const Vector3d direction = frame.turn * rays[j].direction;
-    assign(direction, p.direction[j]), assign(direction.cross(centre), p.moment[j]);
-    p.image[j] = plain(image(rays[j].u, rays[j].v)), p.imageBar[j] = plain(std::conj(number(p.image[j])));
+    assign(direction, p.direction[j]);
+    assign(direction.cross(centre), p.moment[j]);
+    p.image[j] = plain(image(rays[j].u, rays[j].v));
+    p.imageBar[j] = plain(std::conj(number(p.image[j])));
   }
-  p.pointImage = plain(image(point.u, point.v)), p.pointImageBar = plain(std::conj(number(p.pointImage)));
+  p.pointImage = plain(image(point.u, point.v));
+  p.pointImageBar = plain(std::conj(number(p.pointImage)));
   return p;
 }
 
@@ -120,7 +124,8 @@ void scaleRaysLike(const Parameters& start, Parameters* parameters) {
     const Vector3d q = realPart(parameters->direction[j]), m = realPart(parameters->moment[j]);
     const double scale = std::copysign(std::sqrt((q0.squaredNorm() + m0.squaredNorm()) / (q.squaredNorm() + m.squaredNorm())),
                                        q0.dot(q) + m0.dot(m));
-    assign(scale * q, parameters->direction[j]), assign(scale * m, parameters->moment[j]);
+    assign(scale * q, parameters->direction[j]);
+    assign(scale * m, parameters->moment[j]);
   }
 }
 

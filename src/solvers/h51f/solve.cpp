@@ -26,7 +26,7 @@ static bool agrees(const FocalPose& pose, const RayMatch& ray, double imageScale
   const Vector3d normal = direction.cross(centre), line(normal[0], normal[1], normal[2] * f);  // line.(u, v, 1) = 0
   const double residual = std::abs(line.dot(Vector3d(ray.u, ray.v, 1)));
   return residual < kLargestResidual * imageScale * line.head<2>().norm() &&
-         solvers::meetInFront(ray.u / imageScale, ray.v / imageScale, f / imageScale, direction, centre.normalized());
+         meetInFront(ray.u / imageScale, ray.v / imageScale, f / imageScale, direction, centre.normalized());
 }
 
 static Solution solutionAt(const math::Point<double, kUnknowns>& p) {
@@ -39,7 +39,7 @@ int solve(math::SimdLevel level, const RayMatch* rays, const PointMatch& point, 
   const Sharing sharing = arrange(rays, point, arranged);
   Frame frame;
   if (!normalize(sharing, arranged, point, &frame)) return 0;
-  const StartSystem& start = startSystem(sharing);
+  const StartSystem& start = *caseOf(sharing).start;
   alignWith(start, arranged, point, &frame);
   Parameters target = parametersIn(frame, sharing, arranged, point);
   scaleRaysLike(start.parameters, &target);

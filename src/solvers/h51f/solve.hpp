@@ -8,10 +8,9 @@ namespace hybridgv {
 namespace solvers {
 namespace h51f {
 
-// Writes the poses to `solutions` and returns their number; contract of MinimalSolver.hpp. `ends` tells whether the set of
+// Writes the poses to `solutions` and returns their number; contract of MinimalProblems.hpp. `ends` tells whether the set of
 // complex solutions behind them is complete; it has no paths if the sample cannot be normalized.
-int solve(math::SimdLevel level, const solvers::RayMatch* rays, const solvers::PointMatch& point, FocalPose* solutions,
-          EndPoints* ends);
+int solve(math::SimdLevel level, const RayMatch* rays, const PointMatch& point, FocalPose* solutions, EndPoints* ends);
 
 }  // namespace h51f
 }  // namespace solvers

@@ -12,12 +12,14 @@ static Number number(const ComplexNumber& a) { return {a.re, a.im}; }
 
 template <int Degree>
 static void setCoefficient(math::Polynomial<double, Degree>& p, int power, const Number& value) {
-  p.re[power] = value.real(), p.im[power] = value.imag();
+  p.re[power] = value.real();
+  p.im[power] = value.imag();
 }
 
 static math::Polynomial<double, 1> line(const Number& start, const Number& end) {
   math::Polynomial<double, 1> p;
-  setCoefficient(p, 0, start), setCoefficient(p, 1, end - start);
+  setCoefficient(p, 0, start);
+  setCoefficient(p, 1, end - start);
   return p;
 }
 static math::Polynomial<double, 1> line(const ComplexNumber& start, const ComplexNumber& end) {
@@ -41,7 +43,8 @@ Homotopy<double> straightHomotopy(const Parameters& start, const Parameters& tar
     RayHomotopy<double>& ray = path.ray[j];
     ray.direction = line(start.direction[j], target.direction[j]);
     ray.moment = line(start.moment[j], target.moment[j]);
-    ray.image = line(start.image[j], target.image[j]), ray.imageBar = line(start.imageBar[j], target.imageBar[j]);
+    ray.image = line(start.image[j], target.image[j]);
+    ray.imageBar = line(start.imageBar[j], target.imageBar[j]);
     const Number pi = number(start.image[j]), pib = number(start.imageBar[j]);
     const Number dPi = number(target.image[j]) - pi, dPib = number(target.imageBar[j]) - pib;
     setCoefficient(ray.cross, 0, pib * pi0 - pi * pib0);

@@ -25,7 +25,9 @@ solvers::h51f::Frame frameOf(const MinimalProblem& problem) {
   const Eigen::Vector3d difference = problem.points[1].point - problem.points[0].point, third = difference.normalized();
   const Eigen::Vector3d first = third.unitOrthogonal();
   solvers::h51f::Frame frame;
-  frame.origin = problem.points[0].point, frame.length = difference.norm(), frame.imageScale = kImageScale;
+  frame.origin = problem.points[0].point;
+  frame.length = difference.norm();
+  frame.imageScale = kImageScale;
   frame.turn << first.transpose(), third.cross(first).transpose(), third.transpose();
   return frame;
 }
@@ -37,7 +39,8 @@ Parameters parametersOf(const MinimalProblem& problem) {
     const Eigen::Vector3d q = frame.turn * ray.direction, c = frame.turn * (ray.centre - frame.origin) / frame.length;
     for (int k = 0; k < 3; ++k) p.push_back({q[k], 0});
     for (int k = 0; k < 3; ++k) p.push_back({c[k], 0});
-    p.push_back({ray.u / kImageScale, ray.v / kImageScale}), p.push_back({ray.u / kImageScale, -ray.v / kImageScale});
+    p.push_back({ray.u / kImageScale, ray.v / kImageScale});
+    p.push_back({ray.u / kImageScale, -ray.v / kImageScale});
   }
   for (double sign : {1.0, -1.0})
     for (const solvers::PointMatch& point : problem.points) p.push_back({point.u / kImageScale, sign * point.v / kImageScale});
@@ -47,7 +50,10 @@ Parameters parametersOf(const MinimalProblem& problem) {
 // Complex parameters near the problem's; rays of one centre keep one.
 Parameters perturbedParameters(const MinimalProblem& problem, Random& random) {
   Parameters p = parametersOf(problem);
-  for (ComplexNumber& a : p) a.re += 0.3 * random.normal(), a.im += 0.3 * random.normal();
+  for (ComplexNumber& a : p) {
+    a.re += 0.3 * random.normal();
+    a.im += 0.3 * random.normal();
+  }
   for (std::size_t j = 1; j < problem.rays.size(); ++j)
     if (problem.rays[j].camera == problem.rays[j - 1].camera)
       for (std::size_t k = H32fSystem::Centre; k < H32fSystem::Image; ++k) p[8 * j + k] = p[8 * (j - 1) + k];

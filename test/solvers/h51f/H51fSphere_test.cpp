@@ -41,7 +41,8 @@ class H51fSphere : public testing::TestWithParam<RaysPerCamera> {
       const FocalPoses tracked = solveByHomotopy(problem), isolated = solveOnSphere(problem);
       for (const FocalPose& pose : isolated) EXPECT_TRUE(hasFocalPoseNear(tracked, pose, kEqual)) << "problem " << i;
       for (const FocalPose& pose : tracked) count.both += distanceToNearest(isolated, pose) < kEqual;
-      count.tracked += tracked.size(), ++count.problems;
+      count.tracked += tracked.size();
+      ++count.problems;
       count.truths += distanceToNearest(isolated, problem.truth) < kEqual;
     }
     return count;
@@ -64,7 +65,10 @@ TEST_P(H51fSphere, AgreesWithTheHomotopyOnARig) {
 TEST_P(H51fSphere, AgreesWithTheHomotopyOnNoisyData) {
   const auto noisyProblem = [](Random& random) {
     MinimalProblem problem = makeMinimalProblem(random, GetParam(), 1);
-    for (solvers::RayMatch& ray : problem.rays) ray.u += random.normal(), ray.v += random.normal();
+    for (solvers::RayMatch& ray : problem.rays) {
+      ray.u += random.normal();
+      ray.v += random.normal();
+    }
     return problem;
   };
   const Count count = compare(noisyProblem, 15, 2);

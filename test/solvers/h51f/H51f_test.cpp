@@ -142,7 +142,8 @@ const std::vector<DegenerateCase>& degenerateCases() {
       {"a ray through the point",
        [](MinimalProblem& problem, Random&) {
          problem.rays[0].direction = (problem.points[0].point - problem.rays[0].centre).normalized();
-         problem.rays[0].u = problem.points[0].u, problem.rays[0].v = problem.points[0].v;
+         problem.rays[0].u = problem.points[0].u;
+         problem.rays[0].v = problem.points[0].v;
        },
        kFewSteps},
       {"two image points equal",
@@ -150,7 +151,10 @@ const std::vector<DegenerateCase>& degenerateCases() {
        kFewSteps},
       {"all image points equal",
        [](MinimalProblem& problem, Random&) {
-         for (solvers::RayMatch& ray : problem.rays) ray.u = problem.points[0].u, ray.v = problem.points[0].v;
+         for (solvers::RayMatch& ray : problem.rays) {
+           ray.u = problem.points[0].u;
+           ray.v = problem.points[0].v;
+         }
        },
        kFewSteps},
       {"all image points on a line through the principal point",
@@ -167,7 +171,8 @@ const std::vector<DegenerateCase>& degenerateCases() {
       {"all points on one line", makeCollinear, kFewSteps},
       {"the point and a ray at the principal point",
        [](MinimalProblem& problem, Random& random) {
-         movePointToAxis(problem, random.uniform(10, 30)), moveRayToAxis(problem, 2, random.uniform(10, 30));
+         movePointToAxis(problem, random.uniform(10, 30));
+         moveRayToAxis(problem, 2, random.uniform(10, 30));
        },
        kFewSteps},
       {"all image points at the principal point",
@@ -186,8 +191,10 @@ const std::vector<DegenerateCase>& degenerateCases() {
        EndPoints::kMaxSteps},
       {"noise on many scales",
        [](MinimalProblem& problem, Random& random) {
-         for (solvers::RayMatch& ray : problem.rays)
-           ray.u = std::exp(random.uniform(-20, 20)), ray.centre = std::exp(random.uniform(-20, 20)) * random.direction();
+         for (solvers::RayMatch& ray : problem.rays) {
+           ray.u = std::exp(random.uniform(-20, 20));
+           ray.centre = std::exp(random.uniform(-20, 20)) * random.direction();
+         }
        },
        EndPoints::kMaxSteps},
   };
@@ -291,8 +298,12 @@ TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
 
     MinimalProblem zoomed = problem;
     const double zoom = std::exp(random.uniform(-7, 7));
-    for (solvers::RayMatch& ray : zoomed.rays) ray.u *= zoom, ray.v *= zoom;
-    zoomed.points[0].u *= zoom, zoomed.points[0].v *= zoom;
+    for (solvers::RayMatch& ray : zoomed.rays) {
+      ray.u *= zoom;
+      ray.v *= zoom;
+    }
+    zoomed.points[0].u *= zoom;
+    zoomed.points[0].v *= zoom;
     FocalPoses poses = solve(zoomed);
     for (FocalPose& pose : poses) pose.focalLength /= zoom;
     expectEqual(poses, expected, 1e-6);
@@ -301,8 +312,10 @@ TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
     const double scale = std::exp(random.uniform(-7, 7));
     const Eigen::Matrix3d turn = random.rotation();
     const Eigen::Vector3d shift = random.vector(-10, 10);
-    for (solvers::RayMatch& ray : moved.rays)
-      ray.centre = scale * (turn * ray.centre + shift), ray.direction = turn * ray.direction;
+    for (solvers::RayMatch& ray : moved.rays) {
+      ray.centre = scale * (turn * ray.centre + shift);
+      ray.direction = turn * ray.direction;
+    }
     moved.points[0].point = scale * (turn * moved.points[0].point + shift);
     poses = solve(moved);
     for (FocalPose& pose : poses) {

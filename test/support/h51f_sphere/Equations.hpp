@@ -128,7 +128,8 @@ HYBRIDGV_INLINE Sample<V> sampleAt(const Data<Real>& data, const Frame<V>& frame
   if (!data.fourShared) {
     nullVector(rows, sample.v);
     const V scale = 1 / squaredNorm(sample.v);
-    sample.G1 = scale * Q1(sample.v), sample.G2 = scale * Q2(sample.v);
+    sample.G1 = scale * Q1(sample.v);
+    sample.G2 = scale * Q2(sample.v);
     return sample;
   }
   const V D = -dot(frame.n, data.sharedCentre), re = dot(frame.t1, data.sharedCentre), im = dot(frame.t2, data.sharedCentre);
@@ -136,9 +137,16 @@ HYBRIDGV_INLINE Sample<V> sampleAt(const Data<Real>& data, const Frame<V>& frame
   const V ur = -(ex * re + ey * im), ui = ex * im - ey * re;
   const V star[6] = {data.pointRadius * D, ur, ui, D * ur, D * ui, re * re + im * im};
   V fifth[6], v2[6], sum[6], A = V{}, B = V{};
-  for (int k = 0; k < 6; ++k) fifth[k] = rows[4][k], rows[4][k] = star[k];
+  for (int k = 0; k < 6; ++k) {
+    fifth[k] = rows[4][k];
+    rows[4][k] = star[k];
+  }
   nullVector(rows, v2);
-  for (int k = 0; k < 6; ++k) A += fifth[k] * v2[k], B -= fifth[k] * star[k], sum[k] = v2[k] + star[k];
+  for (int k = 0; k < 6; ++k) {
+    A += fifth[k] * v2[k];
+    B -= fifth[k] * star[k];
+    sum[k] = v2[k] + star[k];
+  }
   for (int k = 0; k < 6; ++k) sample.v[k] = A * star[k] + B * v2[k];
   const V scale = 1 / squaredNorm(v2);
   sample.G1 = scale * (A * (Q1(sum) - Q1(v2)) + B * Q1(v2));

@@ -23,7 +23,8 @@ inline Icosphere makeIcosphere(int frequency) {
     for (float one : {-1.0f, 1.0f})
       for (float other : {-golden, golden}) {
         Eigen::Vector3f corner = Eigen::Vector3f::Zero();
-        corner[(axis + 1) % 3] = one, corner[(axis + 2) % 3] = other;
+        corner[(axis + 1) % 3] = one;
+        corner[(axis + 2) % 3] = other;
         corners.push_back(corner);
       }
   const auto adjacent = [&](std::size_t a, std::size_t b) { return (corners[a] - corners[b]).norm() < 2.1f; };

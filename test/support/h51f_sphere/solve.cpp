@@ -50,9 +50,11 @@ Data<double> makeData(const std::vector<RayMatch>& rays, const PointMatch& point
     const RayMatch& ray = rays[static_cast<std::size_t>(j)];
     Eigen::Map<Vector3d>(data.direction[j]) = ray.direction;
     Eigen::Map<Vector3d>(data.moment[j]) = ray.direction.cross(ray.centre - point.point) / scales->length;
-    data.image[j][0] = ray.u / scales->image, data.image[j][1] = ray.v / scales->image;
+    data.image[j][0] = ray.u / scales->image;
+    data.image[j][1] = ray.v / scales->image;
   }
-  data.point[0] = point.u / scales->image, data.point[1] = point.v / scales->image;
+  data.point[0] = point.u / scales->image;
+  data.point[1] = point.v / scales->image;
   data.pointRadius = std::hypot(data.point[0], data.point[1]);
   const bool central = data.pointRadius == 0;
   data.pointAxis[0] = central ? 1 : data.point[0] / data.pointRadius;
@@ -71,7 +73,8 @@ Data<float> narrow(const Data<double>& from) {
   std::transform(from.point, from.point + 2, to.point, convert);
   std::transform(from.pointAxis, from.pointAxis + 2, to.pointAxis, convert);
   std::transform(from.sharedCentre, from.sharedCentre + 3, to.sharedCentre, convert);
-  to.pointRadius = convert(from.pointRadius), to.fourShared = from.fourShared;
+  to.pointRadius = convert(from.pointRadius);
+  to.fourShared = from.fourShared;
   return to;
 }
 
@@ -208,7 +211,8 @@ bool converge(const Data<double>& data, State* x) {
     if (!(relative < (i < 2 ? 1e300 : i < 4 ? 2 : 0.5))) return false;
     const double damping = std::min(1.0, 0.5 / relative);
     if (turn > 0) x->R = Eigen::AngleAxisd(damping * turn, step.head<3>() / turn) * x->R;
-    x->kappa += damping * step[3], x->rho += damping * step[4];
+    x->kappa += damping * step[3];
+    x->rho += damping * step[4];
     if (small) break;
     small = relative < 1e-7;
   }
@@ -268,7 +272,8 @@ FocalPoses solve(const std::vector<RayMatch>& rays, const PointMatch& point, con
   FocalPoses poses;
   for (const State& x : found) {
     FocalPose pose;
-    pose.rotation = x.R.transpose(), pose.focalLength = scales.image / x.kappa;
+    pose.rotation = x.R.transpose();
+    pose.focalLength = scales.image / x.kappa;
     const double depth = x.rho / x.kappa * scales.length;
     pose.position = point.point - depth * pose.rotation * Vector3d(x.kappa * data.point[0], x.kappa * data.point[1], 1);
     poses.push_back(pose);
