@@ -2,14 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace hybridgv {
 namespace {
 
 TEST(Solver, NamesAreTheInverseOfEachOther) {
-  for (Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f})
-    EXPECT_EQ(solverFromString(toString(solver)), solver);
+  for (const Solver solver : allSolvers()) EXPECT_EQ(solverFromString(toString(solver)), solver);
+}
+
+TEST(Solver, AllAreTheEnumeratorsInTheirOrder) {
+  const std::vector<Solver> all = allSolvers();
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(static_cast<std::size_t>(all[i]), i);
+  for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f})
+    EXPECT_TRUE(std::count(all.begin(), all.end(), solver)) << static_cast<int>(solver);
 }
 
 TEST(Solver, UnknownNameListsTheValidOnes) {

@@ -51,7 +51,11 @@ enum class Solver {
   H51f,   ///< 5 2D-2D and 1 2D-3D, at most 56 solutions (9 if the five rays share one centre)
 };
 
-/// The name of a solver: "p4pf", "p35pf", "h13f", "h32f", "h51f".
+/// All of them, in the order of the enumerators.
+HYBRIDGV_EXPORT std::vector<Solver> allSolvers();
+/// The name of the solver's function: "p4pf", "p35pf", ...
+///
+/// \throws std::invalid_argument for a value that is none of the enumerators
 HYBRIDGV_EXPORT const char* toString(Solver solver);
 /// The solver of that name; std::invalid_argument for any other name, with a list of the valid ones.
 HYBRIDGV_EXPORT Solver solverFromString(const std::string& name);

@@ -159,7 +159,7 @@ void compareLoops(const Settings& settings, double outlierShare, const HybridSce
     add("GP3P", AbsoluteProblem::GP3P);
     add("EPNP", AbsoluteProblem::EPNP);
   }
-  for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f}) {
+  for (const Solver solver : hybridgv::allSolvers()) {
     const auto solve = [&] {
       const auto problem = std::make_shared<HybridProblem>(adapter, solver, kMaxReprojectionErrorPx, kMaxEpipolarErrorPx);
       return runLoop(

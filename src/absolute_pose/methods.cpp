@@ -1,24 +1,22 @@
 #include "hybridgv/absolute_pose/methods.hpp"
 
 #include "hybrid_pose/solveSample.hpp"
-#include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace absolute_pose {
 
-using hybrid_pose::readPoints;
+using hybrid_pose::HybridAdapterBase;
+using hybrid_pose::solve;
+using solvers::rowsOf;
 
-static const std::vector<int> kFirstFour{0, 1, 2, 3};
+// The rows are constants, and nothing here has an initializer: the functions may be called before main.
+constexpr solvers::SolverRows kP4pf = rowsOf("p4pf"), kP35pf = rowsOf("p35pf");
 
-FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  return readPoints(4, adapter, indices).solve(&solvers::three_points::p4pf, 6);
-}
-FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter) { return p4pf(adapter, kFirstFour); }
+FocalPoses p4pf(const HybridAdapterBase& adapter, const std::vector<int>& indices) { return solve(kP4pf, adapter, indices); }
+FocalPoses p4pf(const HybridAdapterBase& adapter) { return solve(kP4pf, adapter); }
 
-FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  return readPoints(4, adapter, indices).solve(&solvers::three_points::p35pf, 10);
-}
-FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter) { return p35pf(adapter, kFirstFour); }
+FocalPoses p35pf(const HybridAdapterBase& adapter, const std::vector<int>& indices) { return solve(kP35pf, adapter, indices); }
+FocalPoses p35pf(const HybridAdapterBase& adapter) { return solve(kP35pf, adapter); }
 
 }  // namespace absolute_pose
 }  // namespace hybridgv

@@ -10,57 +10,76 @@
 namespace hybridgv {
 namespace hybrid_pose {
 
+using solvers::MinimalSolver;
+using solvers::SolverRows;
+
 bool overflows(const FocalPose& pose) {
   return !std::isfinite(pose.focalLength) || !pose.position.allFinite() || !pose.rotation.allFinite();
 }
 
-FocalPoses Sample::solve(solvers::SolveFunction solver, int maxSolutions) const {
-  FocalPoses solutions(static_cast<std::size_t>(maxSolutions));
-  solutions.resize(static_cast<std::size_t>(solver(rays.data(), points.data(), solutions.data())));
+FocalPoses solve(const MinimalSolver& solver, const Sample& sample) {
+  FocalPoses solutions(static_cast<std::size_t>(solver.maxSolutions));
+  solutions.resize(static_cast<std::size_t>(solver.solve(sample.rays.data(), sample.points.data(), solutions.data())));
   solutions.erase(std::remove_if(solutions.begin(), solutions.end(), overflows), solutions.end());
   return solutions;
 }
 
-static void fillRays(int count, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices, Sample& sample) {
+static void readRays(int count, const HybridAdapterBase& adapter, const std::vector<int>& indices, Sample& sample) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
     sample.rays[i] = correspondences::readRay(adapter, indices[i]);
 }
 
-static void fillPoints(int count, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices,
-                       Sample& sample) {
+static void readPoints(int count, const HybridAdapterBase& adapter, const std::vector<int>& indices, Sample& sample) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
     sample.points[i] = correspondences::readPoint(adapter, indices[i]);
 }
 
-Sample readSample(int rays, int points, const hybrid_pose::HybridAdapterBase& adapter,
-                  const std::vector<std::vector<int>>& indices) {
-  checkMultiIndices("indices", indices, {rays, points},
+[[noreturn]] static void refuseSeveralCameras(const SolverRows& problem, const Sample& sample,
+                                              const std::vector<int>& rayIndices) {
+  const auto differs = [&](const solvers::RayMatch& ray) { return ray.camera != sample.rays[0].camera; };
+  const auto other = std::find_if(sample.rays.begin(), sample.rays.begin() + problem.rays(), differs) - sample.rays.begin();
+  throwInvalid("indices", "correspondences " + std::to_string(rayIndices[0]) + " and " +
+                              std::to_string(rayIndices[static_cast<std::size_t>(other)]) + " belong to different rig cameras; " +
+                              problem.name() + " needs " + std::to_string(problem.rays()) + " rays of one camera");
+}
+
+static FocalPoses solve(const SolverRows& problem, const Sample& sample, const std::vector<int>& rayIndices) {
+  const MinimalSolver* const solver = problem.forSample(sample.rays.data());
+  if (!solver) refuseSeveralCameras(problem, sample, rayIndices);
+  return solve(*solver, sample);
+}
+
+FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
+  checkMultiIndices("indices", indices, {problem.rays(), problem.points()},
                     {adapter.getNumberCorrespondences2d2d(), adapter.getNumberCorrespondences2d3d()});
   Sample sample;
-  fillRays(rays, adapter, indices[0], sample);
-  fillPoints(points, adapter, indices[1], sample);
-  return sample;
+  readRays(problem.rays(), adapter, indices[0], sample);
+  readPoints(problem.points(), adapter, indices[1], sample);
+  return solve(problem, sample, indices[0]);
 }
 
-Sample readRays(int rays, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  checkIndices("indices", "", indices, rays, adapter.getNumberCorrespondences2d2d());
+FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<int>& indices) {
   Sample sample;
-  fillRays(rays, adapter, indices, sample);
-  return sample;
+  if (problem.rays() > 0) {
+    checkIndices("indices", "", indices, problem.rays(), adapter.getNumberCorrespondences2d2d());
+    readRays(problem.rays(), adapter, indices, sample);
+  } else {
+    checkIndices("indices", "", indices, problem.points(), adapter.getNumberCorrespondences2d3d());
+    readPoints(problem.points(), adapter, indices, sample);
+  }
+  return solve(problem, sample, indices);
 }
 
-Sample readPoints(int points, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices) {
-  checkIndices("indices", "", indices, points, adapter.getNumberCorrespondences2d3d());
-  Sample sample;
-  fillPoints(points, adapter, indices, sample);
-  return sample;
-}
-
-std::vector<std::vector<int>> firstIndices(int rays, int points) {
-  std::vector<std::vector<int>> indices{std::vector<int>(static_cast<std::size_t>(rays)),
-                                        std::vector<int>(static_cast<std::size_t>(points))};
-  for (std::vector<int>& list : indices) std::iota(list.begin(), list.end(), 0);
+static std::vector<int> firstIndices(int count) {
+  std::vector<int> indices(static_cast<std::size_t>(count));
+  std::iota(indices.begin(), indices.end(), 0);
   return indices;
+}
+
+FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter) {
+  if (problem.rays() == 0) return solve(problem, adapter, firstIndices(problem.points()));
+  if (problem.points() == 0) return solve(problem, adapter, firstIndices(problem.rays()));
+  return solve(problem, adapter, std::vector<std::vector<int>>{firstIndices(problem.rays()), firstIndices(problem.points())});
 }
 
 }  // namespace hybrid_pose

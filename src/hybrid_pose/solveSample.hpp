@@ -12,30 +12,23 @@ namespace hybrid_pose {
 
 // Correspondences as the minimal solvers take them.
 struct Sample {
-  static constexpr int kMaxSize = 6;
-  std::array<solvers::RayMatch, kMaxSize> rays;
-  std::array<solvers::PointMatch, kMaxSize> points;
-
-  FocalPoses solve(solvers::SolveFunction solver, int maxSolutions) const;
+  std::array<solvers::RayMatch, solvers::kMaxSampleSize> rays;
+  std::array<solvers::PointMatch, solvers::kMaxSampleSize> points;
 };
 
-// The first `rays` correspondences of indices[0] and the first `points` of indices[1], checked.
-Sample readSample(int rays, int points, const hybrid_pose::HybridAdapterBase& adapter,
-                  const std::vector<std::vector<int>>& indices);
-// The same for rays or points alone.
-Sample readRays(int rays, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
-Sample readPoints(int points, const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
+// The solutions of the sample by this row of the table, without those that overflow.
+FocalPoses solve(const solvers::MinimalSolver& solver, const Sample& sample);
 
-inline FocalPoses solveSample(solvers::SolveFunction solver, int rays, int points, int maxSolutions,
-                              const hybrid_pose::HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
-  return readSample(rays, points, adapter, indices).solve(solver, maxSolutions);
-}
+// Solves the sample of the first correspondences of indices[0] (2D-2D) and indices[1] (2D-3D), checked.
+FocalPoses solve(const solvers::SolverRows& problem, const HybridAdapterBase& adapter,
+                 const std::vector<std::vector<int>>& indices);
+// The same for a problem of one kind of correspondence.
+FocalPoses solve(const solvers::SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<int>& indices);
+// The sample of the adapter's first correspondences.
+FocalPoses solve(const solvers::SolverRows& problem, const HybridAdapterBase& adapter);
 
 // Is a focal length or a position beyond the largest double?
 bool overflows(const FocalPose& pose);
-
-// {0, 1, .., rays-1}, {0, 1, .., points-1}
-std::vector<std::vector<int>> firstIndices(int rays, int points);
 
 }  // namespace hybrid_pose
 }  // namespace hybridgv

@@ -93,17 +93,18 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   const std::size_t chosen = choice_.choose(random.uniform());
   ++worker.draws[chosen];
   const Strategy& strategy = choice_.strategies()[chosen];
-  const Sample sample = data_.sampler.draw(strategy.size, number, random);
+  const SampleSize size = strategy.size();
+  const Sample sample = data_.sampler.draw(size, number, random);
 
   correspondences::RayMatch rays[kMaxSampleSize];
   correspondences::PointMatch points[kMaxSampleSize];
-  for (int k = 0; k < strategy.size.rays; ++k) rays[k] = data_.arrays.rays()[static_cast<std::size_t>(sample.rays[k])];
-  for (int k = 0; k < strategy.size.points; ++k) points[k] = data_.arrays.points()[static_cast<std::size_t>(sample.points[k])];
-  if (isDegenerate(rays, strategy.size.rays, points, strategy.size.points)) return;
+  for (int k = 0; k < size.rays; ++k) rays[k] = data_.arrays.rays()[static_cast<std::size_t>(sample.rays[k])];
+  for (int k = 0; k < size.points; ++k) points[k] = data_.arrays.points()[static_cast<std::size_t>(sample.points[k])];
+  if (isDegenerate(rays, size.rays, points, size.points)) return;
 
-  const int found = strategy.solve(rays, points, worker.solutions.data());
+  const int found = strategy.solver.solve(rays, points, worker.solutions.data());
   for (int k = 0; k < found; ++k)
-    considerSolution(worker.solutions[static_cast<std::size_t>(k)], strategy.solver, number, worker.best);
+    considerSolution(worker.solutions[static_cast<std::size_t>(k)], *strategy.solver.id, number, worker.best);
 }
 
 void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const {
@@ -166,7 +167,7 @@ void HybridSearch::learnFrom(const Model& model) {
   const InlierCounts inliers = inlierCounts(model.pose);
   std::vector<double> probabilities;
   for (const Strategy& strategy : choice_.strategies())
-    probabilities.push_back((1 - kFalseRejection) * data_.sampler.allInlierProbability(strategy.size, inliers));
+    probabilities.push_back((1 - kFalseRejection) * data_.sampler.allInlierProbability(strategy.size(), inliers));
   choice_.setAllInlierProbabilities(probabilities);
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };

@@ -5,20 +5,15 @@
 #include <vector>
 
 #include "math/RandomStream.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace robust {
 
 using math::RandomStream;
 
-constexpr int kMaxSampleSize = 6;
-
-// How the rays of a sample are chosen among the rig cameras.
-enum class RayDraw {
-  Uniform,    // every set of rays is equally likely
-  OneCamera,  // all from one camera, drawn with probability proportional to its number of rays
-  Spread,     // from as many cameras as possible, each camera as likely as the other
-};
+using solvers::kMaxSampleSize;
+using solvers::RayDraw;
 
 struct SampleSize {
   int rays, points;

@@ -7,37 +7,24 @@
 
 namespace hybridgv {
 namespace robust {
-namespace {
 
-// H51f for five rays from one camera: microseconds per call, solutions at most.
-constexpr double kOneCameraCost = 2.6;
-constexpr int kOneCameraSolutions = 9;
 // A sample gives about a third of the largest number of solutions, each of which is scored until it is hopeless.
-constexpr double kScoringCost = 0.2 / 3;
+static constexpr double kScoringCost = 0.2 / 3;
 
-double costWithScoring(double solverCost, int maxSolutions) { return solverCost + kScoringCost * maxSolutions; }
+double Strategy::cost() const { return solver.cost + kScoringCost * solver.maxSolutions; }
 
-void addStrategy(const solvers::MinimalSolver& solver, RayDraw rayDraw, double cost, double prior, const Sampler& sampler,
-                 std::vector<Strategy>& strategies) {
-  const SampleSize size{solver.rays, solver.points, rayDraw};
-  if (sampler.canDraw(size)) strategies.push_back({solver.id, size, solver.solve, prior, cost});
+// A single camera gives no spread rays.
+static bool canDraw(const Sampler& sampler, const Strategy& strategy) {
+  return sampler.canDraw(strategy.size()) && (strategy.solver.draw != RayDraw::Spread || sampler.numberCameras() > 1);
 }
-
-}  // namespace
 
 std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler) {
   std::vector<Strategy> result;
-  for (const sac::SolverPrior& entry : priors) {
-    const solvers::MinimalSolver& solver = solvers::minimalSolver(entry.solver);
-    const double cost = costWithScoring(solver.cost, solver.maxSolutions);
-    if (entry.solver != Solver::H51f) {
-      addStrategy(solver, RayDraw::Uniform, cost, entry.prior, sampler, result);
-      continue;
+  for (const sac::SolverPrior& entry : priors)
+    for (const solvers::MinimalSolver& solver : solvers::rowsOf(entry.solver)) {
+      const Strategy strategy{solver, entry.prior};
+      if (canDraw(sampler, strategy)) result.push_back(strategy);
     }
-    const double oneCameraCost = costWithScoring(kOneCameraCost, kOneCameraSolutions);
-    addStrategy(solver, RayDraw::OneCamera, oneCameraCost, entry.prior, sampler, result);
-    if (sampler.numberCameras() > 1) addStrategy(solver, RayDraw::Spread, cost, entry.prior, sampler, result);
-  }
   return result;
 }
 
@@ -61,7 +48,7 @@ void SolverChoice::setWeights() {
   const bool isKnown = !allInlier_.empty() && *std::max_element(allInlier_.begin(), allInlier_.end()) > 0;
   std::vector<double> rates(strategies_.size());
   for (std::size_t s = 0; s < rates.size(); ++s)
-    rates[s] = strategies_[s].prior * (isKnown ? allInlier_[s] : 1) / strategies_[s].cost;
+    rates[s] = strategies_[s].prior * (isKnown ? allInlier_[s] : 1) / strategies_[s].cost();
   if (isKnown) {
     const double best = *std::max_element(rates.begin(), rates.end());
     for (double& rate : rates)

@@ -10,13 +10,13 @@
 namespace hybridgv {
 namespace robust {
 
-// A solver with a way to draw its samples. H51f appears twice: all rays from one camera is a problem of its own, and cheap.
+// A row of the table of minimal problems, with the weight of its choice.
 struct Strategy {
-  Solver solver;
-  SampleSize size;
-  solvers::SolveFunction solve;
+  solvers::MinimalSolver solver;
   double prior;
-  double cost;  // microseconds per sample, scoring included
+
+  SampleSize size() const { return {solver.rays, solver.points, solver.draw}; }
+  double cost() const;  // microseconds per sample, scoring included
 };
 
 // The strategies for the given solvers that have enough data.

@@ -37,7 +37,7 @@ void setStatistics(const robust::HybridSearch& search, HybridRansacResult& resul
   result.localOptimizations = search.localOptimizations();
   result.stopReason = search.stopReason();
   for (std::size_t s = 0; s < search.choice().strategies().size(); ++s)
-    result.iterationsPerSolver[search.choice().strategies()[s].solver] += search.choice().drawn()[s];
+    result.iterationsPerSolver[*search.choice().strategies()[s].solver.id] += search.choice().drawn()[s];
 }
 
 void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, HybridRansacResult& result) {

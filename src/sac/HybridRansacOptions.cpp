@@ -1,20 +1,31 @@
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "CheckArguments.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace sac {
+
+std::vector<SolverPrior> defaultSolvers() {
+  std::vector<SolverPrior> result;
+  for (const solvers::SolverRows& problem : solvers::minimalProblems()) {
+    const solvers::MinimalSolver& solver = *problem.begin();
+    const bool estimatesTheFocalLength = solver.intrinsics.focalLength && !solver.intrinsics.radial;
+    if (solver.id && solver.prior > 0 && estimatesTheFocalLength) result.push_back({*solver.id, solver.prior});
+  }
+  return result;
+}
 
 static void require(bool holds, const char* name, double value, const char* expected) {
   if (!holds) throwInvalid(std::string("options.") + name, "must be " + std::string(expected) + ", is " + std::to_string(value));
 }
 
 template <class Enumeration>
-static void requireListed(std::initializer_list<Enumeration> values, const char* name, Enumeration value) {
+static void requireListed(const std::vector<Enumeration>& values, const char* name, Enumeration value) {
   if (std::find(values.begin(), values.end(), value) == values.end())
     throwInvalid(std::string("options.") + name, "no such value: " + std::to_string(static_cast<int>(value)));
 }
@@ -31,6 +42,7 @@ void HybridRansacOptions::check() const {
   require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength, "greater than minFocalLength");
   require(threads >= 0, "threads", threads, "0 (all cores) or positive");
   if (solvers.empty() && !initialPose) throwInvalid("options.solvers", "empty, and there is no initialPose");
+  for (const SolverPrior& entry : solvers) requireListed(allSolvers(), "solvers", entry.solver);
   for (const SolverPrior& entry : solvers)
     require(positiveFinite(entry.prior), ("solvers[" + std::string(hybridgv::toString(entry.solver)) + "].prior").c_str(),
             entry.prior, "positive and finite");

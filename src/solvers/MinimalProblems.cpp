@@ -1,22 +1,37 @@
 #include "solvers/MinimalProblems.hpp"
 
-#include <stdexcept>
-
-#include "solvers/solvers.hpp"
+#include "CheckArguments.hpp"
 
 namespace hybridgv {
 namespace solvers {
 
-static const MinimalSolver kMinimalSolvers[] = {
-    {Solver::P4Pf, "p4pf", 0, 4, 6, 1.4, &three_points::p4pf},  {Solver::P35Pf, "p35pf", 0, 4, 10, 2.0, &three_points::p35pf},
-    {Solver::H13f, "h13f", 1, 3, 12, 2.7, &three_points::h13f}, {Solver::H32f, "h32f", 3, 2, 26, 8, &h32f::solve},
-    {Solver::H51f, "h51f", 5, 1, 56, 220, &h51f::solve},
-};
+bool canGive(const MinimalSolver& solver, const RayMatch* rays) {
+  const auto isOfFirstCamera = [rays](const RayMatch& ray) { return ray.camera == rays[0].camera; };
+  return solver.draw != RayDraw::OneCamera || std::all_of(rays, rays + solver.rays, isOfFirstCamera);
+}
 
-const MinimalSolver& minimalSolver(Solver id) {
+const MinimalSolver* SolverRows::forSample(const RayMatch* rays) const {
+  const auto found = std::find_if(begin_, end_, [rays](const MinimalSolver& solver) { return canGive(solver, rays); });
+  return found == end_ ? nullptr : found;
+}
+
+SolverRows rowsOf(Solver id) {
   for (const MinimalSolver& solver : kMinimalSolvers)
-    if (solver.id == id) return solver;
-  throw std::invalid_argument("hybridgv::Solver: no such minimal solver: " + std::to_string(static_cast<int>(id)));
+    if (solver.id == id) return rowsOf(solver.name);
+  throwInvalid("solver", "no such value: " + std::to_string(static_cast<int>(id)));
+}
+
+std::vector<SolverRows> minimalProblems() {
+  std::vector<SolverRows> result;
+  for (const MinimalSolver* row = std::begin(kMinimalSolvers); row != std::end(kMinimalSolvers); row = result.back().end())
+    result.push_back(rowsOf(row->name));
+  return result;
+}
+
+void throwUnknownProblem(std::string_view name) {
+  std::string valid;
+  for (const SolverRows& problem : minimalProblems()) valid += std::string(valid.empty() ? "" : ", ") + problem.name();
+  throwInvalid("solver", "unknown name \"" + std::string(name) + "\", valid are " + valid);
 }
 
 }  // namespace solvers

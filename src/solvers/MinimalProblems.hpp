@@ -1,40 +1,111 @@
-// What a minimal solver is, and the list of them all.
+// The table of minimal problems: the only place where the facts of a solver stand.
 //
-// A new solver is one file in this folder, one row in MinimalProblems.cpp, and one public function in a methods.hpp.
+// A new solver is a file in this folder, its declaration and its row here, an enumerator of Solver and a public function. What
+// walks over the table then knows it: names, hybridRansac, the problems for OpenGV's loops, tests, fuzzers and benchmarks.
 #pragma once
 
-#include "correspondences/Correspondence.hpp"
-#include "hybridgv/types.hpp"
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {
 namespace solvers {
 
-using correspondences::PointMatch;
-using correspondences::RayMatch;
+namespace three_points {
+int p4pf(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+int p35pf(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+int h13f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+}  // namespace three_points
 
-// Upper bound of the number of solutions of any minimal problem here.
-constexpr int kMaxSolutions = 56;
+namespace one_centre {
+// All five rays from one centre.
+int h51f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+// Six rays from one centre, no point; the position is returned at distance 1 from that centre.
+int sixptOnefocal(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+}  // namespace one_centre
 
-// Finds the poses that are consistent with the sample, writes them to `solutions` and returns their number. All solvers keep
-// this contract:
-//  * the input is finite; its image coordinates and lengths may have any unit and scale, at least from 1e-150 to 1e150
-//    (the solver normalizes inside);
-//  * every returned pose satisfies the equations, has f > 0, det rotation = +1, positive depths of points and rays;
-//  * no solution is returned twice; degenerate input gives 0 solutions; nothing is NaN;
-//  * no allocation, no global state, bounded time.
-using SolveFunction = int (*)(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+namespace h32f {
+// Any pattern of shared centres.
+int solve(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+}  // namespace h32f
 
-struct MinimalSolver {
-  Solver id;
-  const char* name;
-  int rays;    // 2D-2D correspondences in a sample
-  int points;  // 2D-3D correspondences in a sample
-  int maxSolutions;
-  double cost;  // microseconds per call, between those of the instruction sets: for choosing between solvers
-  SolveFunction solve;
+namespace h51f {
+// Any pattern of shared centres; recognizes it from RayMatch::camera.
+int solve(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+}  // namespace h51f
+
+constexpr correspondences::Intrinsics kUnknownFocalLength = {true, false};
+
+// A row per way to draw and solve. The rows of one problem, which have one name, stand together; of several the first is taken
+// whose draw can give the sample at hand.
+// clang-format off
+inline constexpr MinimalSolver kMinimalSolvers[] = {
+    // id, name, rays, points, draw, most solutions, cost, prior, exact coordinates, follows paths, intrinsics, function
+    {Solver::P4Pf,  "p4pf",           0, 4, RayDraw::Uniform,    6, 1.4, 1,   6, false, kUnknownFocalLength, &three_points::p4pf},
+    {Solver::P35Pf, "p35pf",          0, 4, RayDraw::Uniform,   10, 2.0, 0.1, 7, false, kUnknownFocalLength, &three_points::p35pf},
+    {Solver::H13f,  "h13f",           1, 3, RayDraw::Uniform,   12, 2.7, 1,   6, false, kUnknownFocalLength, &three_points::h13f},
+    {Solver::H32f,  "h32f",           3, 2, RayDraw::Uniform,   26, 8,   1,   4, false, kUnknownFocalLength, &h32f::solve},
+    {Solver::H51f,  "h51f",           5, 1, RayDraw::OneCamera,  9, 2.6, 1,   2, false, kUnknownFocalLength, &one_centre::h51f},
+    {Solver::H51f,  "h51f",           5, 1, RayDraw::Spread,    56, 220, 1,   2, true,  kUnknownFocalLength, &h51f::solve},
+    {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
+};
+// clang-format on
+
+// The largest value of a column.
+constexpr int largest(int MinimalSolver::*column) {
+  int result = 0;
+  for (const MinimalSolver& solver : kMinimalSolvers) result = std::max(result, solver.*column);
+  return result;
+}
+constexpr int kMaxSolutions = largest(&MinimalSolver::maxSolutions);
+// Correspondences of one kind in a sample.
+constexpr int kMaxSampleSize = std::max(largest(&MinimalSolver::rays), largest(&MinimalSolver::points));
+
+// Whether this way to draw can give these rays of a sample.
+bool canGive(const MinimalSolver& solver, const RayMatch* rays);
+
+// The rows of one problem.
+class SolverRows {
+ public:
+  constexpr SolverRows(const MinimalSolver* begin, const MinimalSolver* end) : begin_(begin), end_(end) {}
+
+  constexpr const MinimalSolver* begin() const { return begin_; }
+  constexpr const MinimalSolver* end() const { return end_; }
+
+  // What all rows have in common.
+  constexpr const std::optional<Solver>& id() const { return begin_->id; }
+  constexpr const char* name() const { return begin_->name; }
+  constexpr int rays() const { return begin_->rays; }
+  constexpr int points() const { return begin_->points; }
+
+  // The row for a sample, nullptr if there is none.
+  const MinimalSolver* forSample(const RayMatch* rays) const;
+
+ private:
+  const MinimalSolver *begin_, *end_;
 };
 
-const MinimalSolver& minimalSolver(Solver id);
+[[noreturn]] void throwUnknownProblem(std::string_view name);
+
+// The rows of a name. A name that does not exist is std::invalid_argument, or a compiler's error in a constant.
+constexpr SolverRows rowsOf(std::string_view name) {
+  const MinimalSolver* begin = std::begin(kMinimalSolvers);
+  while (begin != std::end(kMinimalSolvers) && name != begin->name) ++begin;
+  if (begin == std::end(kMinimalSolvers)) throwUnknownProblem(name);
+  const MinimalSolver* end = begin;
+  while (end != std::end(kMinimalSolvers) && name == end->name) ++end;
+  return {begin, end};
+}
+
+// The rows of an enumerator; std::invalid_argument if it is none.
+SolverRows rowsOf(Solver id);
+
+// Every problem once, in the table's order.
+std::vector<SolverRows> minimalProblems();
 
 }  // namespace solvers
 }  // namespace hybridgv

@@ -19,8 +19,8 @@
 #include "H51fScenes.hpp"
 #include "MinimalProblem.hpp"
 #include "OneCentreProblems.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/solve.hpp"
-#include "solvers/solvers.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {
 namespace fuzz {

@@ -2,10 +2,9 @@
 #include <Eigen/Geometry>
 
 #include "Misuse.hpp"
-#include "hybridgv/absolute_pose/methods.hpp"
+#include "hybrid_pose/solveSample.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
-#include "hybridgv/relative_pose/methods.hpp"
 
 namespace hybridgv {
 namespace test {
@@ -23,23 +22,19 @@ struct PublicSolver {
   std::function<FocalPoses(const HybridAdapterBase&)> solveFirst;
 };
 
+// Of every public function: what its body is.
 std::vector<PublicSolver> publicSolvers() {
-  using Adapter = HybridAdapterBase;
-  return {
-      {"p4pf", 0, 4, false, [](const Adapter& a, const MultiIndices& i) { return absolute_pose::p4pf(a, i[1]); },
-       [](const Adapter& a) { return absolute_pose::p4pf(a); }},
-      {"p35pf", 0, 4, false, [](const Adapter& a, const MultiIndices& i) { return absolute_pose::p35pf(a, i[1]); },
-       [](const Adapter& a) { return absolute_pose::p35pf(a); }},
-      {"sixpt_onefocal", 6, 0, false,
-       [](const Adapter& a, const MultiIndices& i) { return relative_pose::sixpt_onefocal(a, i[0]); },
-       [](const Adapter& a) { return relative_pose::sixpt_onefocal(a); }},
-      {"h13f", 1, 3, true, [](const Adapter& a, const MultiIndices& i) { return hybrid_pose::h13f(a, i); },
-       [](const Adapter& a) { return hybrid_pose::h13f(a); }},
-      {"h32f", 3, 2, true, [](const Adapter& a, const MultiIndices& i) { return hybrid_pose::h32f(a, i); },
-       [](const Adapter& a) { return hybrid_pose::h32f(a); }},
-      {"h51f", 5, 1, true, [](const Adapter& a, const MultiIndices& i) { return hybrid_pose::h51f(a, i); },
-       [](const Adapter& a) { return hybrid_pose::h51f(a); }},
-  };
+  std::vector<PublicSolver> result;
+  for (const solvers::SolverRows& problem : solvers::minimalProblems()) {
+    const bool twoLists = problem.rays() > 0 && problem.points() > 0;
+    const auto solve = [=](const HybridAdapterBase& adapter, const MultiIndices& indices) {
+      if (twoLists) return hybrid_pose::solve(problem, adapter, indices);
+      return hybrid_pose::solve(problem, adapter, indices[problem.rays() > 0 ? 0 : 1]);
+    };
+    const auto solveFirst = [=](const HybridAdapterBase& adapter) { return hybrid_pose::solve(problem, adapter); };
+    result.push_back({problem.name(), problem.rays(), problem.points(), twoLists, solve, solveFirst});
+  }
+  return result;
 }
 
 std::vector<int> upTo(int count) {
@@ -210,9 +205,12 @@ TEST(Misuse, ResidualsOfNumbersThatAreNotFiniteAreInfinite) {
 }
 
 TEST(Misuse, UnknownSolverNamesAreRefused) {
-  for (const char* name : {"", "H13F", "h13f ", "p3p"}) expectRefused(name, "solver", [&] { solverFromString(name); });
-  for (const int value : {-1, 5, 1000})
-    expectRefused(std::to_string(value), "solver", [&] { toString(static_cast<Solver>(value)); });
+  for (const char* name : {"", "H13F", "h13f ", "p3p", "sixpt_onefocal"})
+    expectRefused(name, "solver", [&] { solverFromString(name); });
+  for (const Solver solver : noSolvers()) {
+    const std::string value = std::to_string(static_cast<int>(solver));
+    expectRefused(value, "solver: no such value: " + value, [&] { toString(solver); });
+  }
 }
 
 }  // namespace

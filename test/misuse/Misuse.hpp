@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "HybridScene.hpp"
+#include "SolverConfigurations.hpp"
 #include "expectRefused.hpp"
 
 namespace hybridgv {

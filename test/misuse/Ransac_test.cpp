@@ -44,9 +44,11 @@ TEST(Misuse, RansacRefusesWrongListsOfSolversAndWrongStarts) {
   expectRefused("no solver", "solvers", [&] { sac::hybridRansac(adapter, options); });
   options.solvers = {{Solver::P4Pf, 1}, {Solver::H13f, 1}, {Solver::P4Pf, 2}};
   expectRefused("repeated solver", "solvers", [&] { sac::hybridRansac(adapter, options); });
-  for (const int value : {-1, 5, 1000}) {
-    options.solvers = {{static_cast<Solver>(value), 1}};
-    expectRefused("solver " + std::to_string(value), "solver", [&] { sac::hybridRansac(adapter, options); });
+  for (const Solver solver : noSolvers()) {
+    const std::string value = std::to_string(static_cast<int>(solver));
+    options.solvers = {{Solver::P4Pf, 1}, {solver, 1}};
+    expectRefused("solver " + value, "options.solvers: no such value: " + value, [&] { options.check(); });
+    expectRefused("solver " + value, "options.solvers: no such value: " + value, [&] { sac::hybridRansac(adapter, options); });
   }
   for (const WrongPose& wrong : wrongPoses()) {
     options = HybridRansacOptions();

@@ -12,7 +12,9 @@ using namespace robust;
 
 int noSolution(const correspondences::RayMatch*, const correspondences::PointMatch*, FocalPose*) { return 0; }
 
-Strategy mock(double prior, double cost) { return {Solver::P4Pf, {0, 4, RayDraw::Uniform}, &noSolution, prior, cost}; }
+Strategy mock(double prior, double cost) {
+  return {{Solver::P4Pf, "mock", 0, 4, RayDraw::Uniform, 0, cost, 1, 0, false, {}, &noSolution}, prior};
+}
 
 // Shares of the draws, on an even grid of random numbers.
 std::vector<double> shares(const SolverChoice& choice) {
@@ -95,9 +97,9 @@ TEST(SolverChoice, StrategiesWithoutEnoughDataAreLeftOut) {
     std::iota(list.begin(), list.end(), 0);
     std::string result;
     for (const Strategy& strategy : makeStrategies(all, Sampler(cameraOfRay, rays, list, false)))
-      result += std::string(toString(strategy.solver)) + (strategy.size.rayDraw == RayDraw::OneCamera ? "[5] "
-                                                          : strategy.size.rayDraw == RayDraw::Spread  ? "* "
-                                                                                                      : " ");
+      result += std::string(strategy.solver.name) + (strategy.solver.draw == RayDraw::OneCamera ? "[5] "
+                                                     : strategy.solver.draw == RayDraw::Spread  ? "* "
+                                                                                                : " ");
     return result;
   };
   EXPECT_EQ(names(5, 10, 10), "p4pf h13f h51f[5] h51f* ");

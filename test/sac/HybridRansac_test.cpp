@@ -292,7 +292,7 @@ TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
 TEST(HybridRansac, OnlyTheGivenSolversAreDrawn) {
   test::Random random(test::testSeed(), 89);
   const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
-  for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f}) {
+  for (const Solver solver : allSolvers()) {
     HybridRansacOptions options = thresholds();
     options.solvers = {{solver, 1}};
     const HybridRansacResult result = hybridRansac(scene.adapter(), options);

@@ -122,10 +122,7 @@ TEST_P(SacLoops, DegenerateDataGiveNoModel) {
 std::string name(const testing::TestParamInfo<std::tuple<NamedLoop, Solver>>& info) {
   return std::string(std::get<0>(info.param).name) + "_" + toString(std::get<1>(info.param));
 }
-INSTANTIATE_TEST_SUITE_P(All, SacLoops,
-                         testing::Combine(testing::ValuesIn(kLoops),
-                                          testing::Values(Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f)),
-                         name);
+INSTANTIATE_TEST_SUITE_P(All, SacLoops, testing::Combine(testing::ValuesIn(kLoops), testing::ValuesIn(allSolvers())), name);
 
 }  // namespace
 }  // namespace hybridgv

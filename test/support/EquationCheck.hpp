@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hybridgv/types.hpp"
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {
 namespace test {

@@ -13,7 +13,7 @@
 #include "Random.hpp"
 #include "hybridgv/adapters/NoncentralHybridAdapter.hpp"
 #include "hybridgv/types.hpp"
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {
 namespace test {

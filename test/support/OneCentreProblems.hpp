@@ -2,7 +2,7 @@
 #pragma once
 
 #include "MinimalProblem.hpp"
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace test {

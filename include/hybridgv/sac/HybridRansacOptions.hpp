@@ -19,6 +19,9 @@ struct SolverPrior {
   double prior = 1;  ///< its weight relative to the others'; only the ratios matter
 };
 
+/// All solvers for a query image of unknown focal length; P35Pf has a tenth of the others' weight.
+HYBRIDGV_EXPORT std::vector<SolverPrior> defaultSolvers();
+
 /// What makes a pose better than another.
 enum class Scoring {
   Msac,         ///< sum over all correspondences of max(0, 1 - (error/threshold)^2)
@@ -49,8 +52,7 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] solutions with a larger one are dropped
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
-  std::vector<SolverPrior> solvers = {
-      {Solver::P4Pf, 1}, {Solver::P35Pf, 0.1}, {Solver::H13f, 1}, {Solver::H32f, 1}, {Solver::H51f, 1}};
+  std::vector<SolverPrior> solvers = defaultSolvers();
   Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized
   Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
   bool localOptimization = true;  ///< optimize promising models over both kinds; the likeliest is kept, the noise being estimated

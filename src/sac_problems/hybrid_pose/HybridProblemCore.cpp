@@ -21,12 +21,7 @@ namespace hybrid_pose {
 
 namespace {
 
-constexpr std::size_t kMaxSampleSize = 6;
-
-struct Sample {
-  std::array<correspondences::RayMatch, kMaxSampleSize> rays;
-  std::array<correspondences::PointMatch, kMaxSampleSize> points;
-};
+using hybridgv::hybrid_pose::Sample;
 
 void checkThreshold(const char* name, double value) {
   if (!(value > 0) || !std::isfinite(value)) throwInvalid(name, "must be positive and finite, is " + std::to_string(value));
@@ -48,7 +43,7 @@ void checkRanges(const char* name, const std::vector<int>& indices, int count) {
 
 struct HybridProblemCore::Data {
   Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx)
-      : solver(solvers::minimalSolver(id)),
+      : problem(solvers::rowsOf(id)),
         correspondences(adapter),
         arrays(correspondences, correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
                correspondences::allIndices(adapter.getNumberCorrespondences2d3d())),
@@ -58,8 +53,8 @@ struct HybridProblemCore::Data {
     for (std::size_t i = 0; i < arrays.rays().size(); ++i) cameras.push_back(correspondences.getCamIndex(i));
     checkThreshold("maxReprojectionErrorPx", reprojectionPx);
     checkThreshold("maxEpipolarErrorPx", epipolarPx);
-    checkCount("2D-2D", count2d2d(), solver.rays, solver.name);
-    checkCount("2D-3D", count2d3d(), solver.points, solver.name);
+    checkCount("2D-2D", count2d2d(), problem.rays(), problem.name());
+    checkCount("2D-3D", count2d3d(), problem.points(), problem.name());
   }
 
   int count2d2d() const { return static_cast<int>(arrays.rays().size()); }
@@ -87,9 +82,9 @@ struct HybridProblemCore::Data {
 
   Sample read(const MultiIndices& sample) const {
     checkPool("sample", sample);
-    const auto rays = static_cast<std::size_t>(solver.rays), points = static_cast<std::size_t>(solver.points);
+    const auto rays = static_cast<std::size_t>(problem.rays()), points = static_cast<std::size_t>(problem.points());
     if (sample[0].size() != rays || sample[1].size() != points)
-      throwInvalid("sample", std::string(solver.name) + " needs " + std::to_string(rays) + " 2D-2D and " +
+      throwInvalid("sample", std::string(problem.name()) + " needs " + std::to_string(rays) + " 2D-2D and " +
                                  std::to_string(points) + " 2D-3D correspondences, got " + std::to_string(sample[0].size()) +
                                  " and " + std::to_string(sample[1].size()));
     Sample result;
@@ -100,10 +95,10 @@ struct HybridProblemCore::Data {
   }
 
   bool isGood(const Sample& sample) const {
-    return !isDegenerate(sample.rays.data(), solver.rays, sample.points.data(), solver.points);
+    return !isDegenerate(sample.rays.data(), problem.rays(), sample.points.data(), problem.points());
   }
 
-  const solvers::MinimalSolver& solver;
+  const solvers::SolverRows problem;
   const CopiedCorrespondences correspondences;
   correspondences::CorrespondenceArrays arrays;
   std::vector<int> cameras;  // of the 2D-2D correspondences
@@ -115,7 +110,12 @@ HybridProblemCore::HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterB
     : data_(std::make_shared<const Data>(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx)) {}
 
 std::array<int, 2> HybridProblemCore::size() const { return {data_->count2d2d(), data_->count2d3d()}; }
-std::array<int, 2> HybridProblemCore::sampleSize() const { return {data_->solver.rays, data_->solver.points}; }
+std::array<int, 2> HybridProblemCore::sampleSize() const { return {data_->problem.rays(), data_->problem.points()}; }
+
+bool HybridProblemCore::drawsRaysFromOneCamera() const {
+  const auto isOfOneCamera = [](const solvers::MinimalSolver& solver) { return solver.draw == solvers::RayDraw::OneCamera; };
+  return std::any_of(data_->problem.begin(), data_->problem.end(), isOfOneCamera);
+}
 
 MultiIndices HybridProblemCore::split(const std::vector<int>& flat) const {
   checkRanges("indices", flat, data_->count());
@@ -142,7 +142,7 @@ std::vector<int> HybridProblemCore::join(const MultiIndices& indices) const {
 MultiIndices HybridProblemCore::drawSample(const MultiIndices& pool, bool raysFromOneCamera,
                                            const std::function<int()>& random) const {
   data_->checkPool("indices", pool);
-  const int rays = data_->solver.rays, points = data_->solver.points;
+  const int rays = data_->problem.rays(), points = data_->problem.points();
   if (pool[0].size() < static_cast<std::size_t>(rays) || pool[1].size() < static_cast<std::size_t>(points)) return {};
   MultiIndices sample(2);
   sample[0] = raysFromOneCamera && rays > 1 ? drawSubset(drawCamera(pool[0], data_->cameras, rays, random), rays, random)
@@ -157,14 +157,12 @@ bool HybridProblemCore::computeModel(const MultiIndices& sample, const std::vect
   const Sample correspondences = data_->read(sample);
   checkRanges("indices", pool, data_->count());
   if (!data_->isGood(correspondences)) return false;
-  std::vector<FocalPose> solutions(static_cast<std::size_t>(data_->solver.maxSolutions));
-  const int found = data_->solver.solve(correspondences.rays.data(), correspondences.points.data(), solutions.data());
-  solutions.resize(static_cast<std::size_t>(found));
+  const solvers::MinimalSolver* const solver = data_->problem.forSample(correspondences.rays.data());
+  if (!solver) return false;
 
   std::vector<double> squaredDistances;
   double best = std::numeric_limits<double>::infinity();
-  for (const FocalPose& solution : solutions) {
-    if (hybridgv::hybrid_pose::overflows(solution)) continue;
+  for (const FocalPose& solution : hybridgv::hybrid_pose::solve(*solver, correspondences)) {
     data_->computeSquaredDistances(solution, squaredDistances);
     double cost = 0;
     for (int i : pool) {

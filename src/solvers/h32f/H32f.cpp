@@ -26,9 +26,9 @@
 #include <complex>
 #include <utility>
 
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h32f/HiddenRoots.hpp"
 #include "solvers/h32f/Kernel.hpp"
-#include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace solvers {

@@ -1,9 +1,9 @@
 // H51f: five rays and one point; the algorithm depends on which rays share a centre.
 #include <algorithm>
 
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/Reduction.hpp"
 #include "solvers/h51f/solve.hpp"
-#include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace solvers {

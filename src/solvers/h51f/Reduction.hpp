@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {

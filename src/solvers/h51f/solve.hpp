@@ -1,7 +1,7 @@
 // H51f except for five rays of one centre, with all choices open.
 #pragma once
 
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 #include "solvers/h51f/solvePaths.hpp"
 
 namespace hybridgv {

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/one_centre/OneFocalFundamental.hpp"
-#include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace solvers {

@@ -1,8 +1,8 @@
 // Six rays from one centre c: pose up to the length of the baseline, which is returned as 1.
 #include <Eigen/Core>
 
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/one_centre/OneFocalFundamental.hpp"
-#include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace solvers {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/three_points/ThreePointSolver.hpp"
 
 namespace hybridgv {

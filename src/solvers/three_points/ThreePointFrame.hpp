@@ -19,7 +19,7 @@
 #include <Eigen/Core>
 
 #include "math/Complex.hpp"
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {
 namespace solvers {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <set>
 
 #include "EquationCheck.hpp"
 #include "SolverCases.hpp"
@@ -219,20 +218,6 @@ TEST_P(Contract, ErrorGrowsInProportionToTheNoise) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Contract, testing::ValuesIn(solverCases()),
                          [](const auto& instance) { return instance.param.name; });
-
-TEST(ContractCases, ContainEveryMinimalSolver) {
-  std::set<solvers::SolveFunction> tested;
-  for (const SolverCase& solver : solverCases()) tested.insert(solver.solve);
-  for (const Solver id : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f}) {
-    const solvers::MinimalSolver& solver = solvers::minimalSolver(id);
-    EXPECT_TRUE(tested.count(solver.solve)) << solver.name;
-    for (const SolverCase& example : solverCases()) {
-      if (example.solve != solver.solve) continue;
-      EXPECT_EQ(example.points, solver.points) << example;
-      EXPECT_LE(example.maxSolutions, solver.maxSolutions) << example;
-    }
-  }
-}
 
 }  // namespace
 }  // namespace test

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "MinimalProblem.hpp"
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace test {

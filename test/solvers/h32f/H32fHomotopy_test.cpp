@@ -5,8 +5,8 @@
 
 #include "FocalPoseNear.hpp"
 #include "H32fSystem.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/Reduction.hpp"
-#include "solvers/solvers.hpp"
 #include "start_systems/Monodromy.hpp"
 
 namespace hybridgv {

@@ -9,7 +9,7 @@
 #include "GoldenProblems.hpp"
 #include "MinimalProblem.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace test {
@@ -156,14 +156,6 @@ TEST_P(H32f, PublicFunctionReadsTheIndexedCorrespondences) {
   EXPECT_THROW(hybrid_pose::h32f(adapter, {{0, 1}, {0, 1}}), std::invalid_argument);
   EXPECT_THROW(hybrid_pose::h32f(adapter, {{0, 1, 3}, {0, 1}}), std::invalid_argument);
   EXPECT_THROW(hybrid_pose::h32f(adapter, {{0, 1, 1}, {0, 1}}), std::invalid_argument);
-}
-
-TEST(H32fRegistry, KnowsTheSolver) {
-  const solvers::MinimalSolver& solver = solvers::minimalSolver(Solver::H32f);
-  EXPECT_EQ(solver.rays, 3);
-  EXPECT_EQ(solver.points, 2);
-  EXPECT_EQ(solver.maxSolutions, 26);
-  EXPECT_EQ(solver.solve, &solvers::h32f::solve);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "FocalPoseNear.hpp"
 #include "H51fScenes.hpp"
 #include "h51f_sphere/solve.hpp"
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace test {

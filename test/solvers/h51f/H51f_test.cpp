@@ -7,8 +7,8 @@
 #include "GoldenProblems.hpp"
 #include "H51fScenes.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/solve.hpp"
-#include "solvers/solvers.hpp"
 
 namespace hybridgv {
 namespace test {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "GoldenProblems.hpp"
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
 namespace test {

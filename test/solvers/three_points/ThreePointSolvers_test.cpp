@@ -9,7 +9,7 @@
 #include "AwkwardProblems.hpp"
 #include "FocalPoseNear.hpp"
 #include "MinimalProblem.hpp"
-#include "solvers/solvers.hpp"
+#include "solvers/MinimalProblems.hpp"
 #include "statistics.hpp"
 
 namespace hybridgv {

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "solvers/MinimalProblems.hpp"
+#include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {
 namespace test {

@@ -36,6 +36,8 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   std::array<int, 2> size() const;
   /// How many 2D-2D and 2D-3D correspondences the solver needs.
   std::array<int, 2> sampleSize() const;
+  /// Whether the solver has a much faster way for rays of one rig camera, so that samples should be drawn so.
+  bool drawsRaysFromOneCamera() const;
 
   /// Flat indices: 0 .. n2d2d-1 are the 2D-2D correspondences, the 2D-3D ones follow. Throws std::invalid_argument for an index
   /// that is out of range.

@@ -39,7 +39,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
                             std::uint64_t seed = 0)
       : MultiSampleConsensusProblem(false),
         core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx),
-        raysFromOneCamera_(solver == Solver::H51f) {
+        raysFromOneCamera_(core_.drawsRaysFromOneCamera()) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
     setUniformIndices({core_.size()[0], core_.size()[1]});
   }
