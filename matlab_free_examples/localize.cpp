@@ -40,6 +40,13 @@ struct Arguments {
   bool json = false, readStandardInput = false, quiet = false;
 };
 
+// "all, p4pf, .."
+std::string solverNames() {
+  std::string names = "all";
+  for (const hybridgv::Solver solver : hybridgv::allSolvers()) names += std::string(", ") + hybridgv::toString(solver);
+  return names;
+}
+
 // Fills `arguments`; returns the exit code if the program is to stop here (help, wrong usage), -1 otherwise.
 int parse(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
@@ -51,7 +58,7 @@ int parse(int argc, char** argv, Arguments& arguments) {
   app.add_option("-q,--query", arguments.queries, "names or indices of the query images (default: every image in turn)");
   app.add_flag("--stdin", arguments.readStandardInput,
                "read query names (if a map is given) or problem files from standard input, one a line");
-  app.add_option("-s,--solver", arguments.solver, "minimal solver: all, p4pf, p35pf, h13f, h32f or h51f")->capture_default_str();
+  app.add_option("-s,--solver", arguments.solver, "minimal solver: " + solverNames())->capture_default_str();
   app.add_option("--max-reprojection-error", arguments.ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]")
       ->capture_default_str();
   app.add_option("--max-epipolar-error", arguments.ransac.maxEpipolarErrorPx,

@@ -19,6 +19,7 @@
 #include "H51fScenes.hpp"
 #include "MinimalProblem.hpp"
 #include "OneCentreProblems.hpp"
+#include "SolverConfigurations.hpp"
 #include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/solve.hpp"
 
@@ -45,7 +46,7 @@ int solveH51f(const MinimalProblem& problem, FocalPose* poses, bool* complete) {
 // H51f with rays of several centres: the usual scene, or all the others.
 void addH51fRows(bool awkward, std::vector<Row>* rows) {
   for (const RaysPerCamera& pattern : h51fPatterns()) {
-    const std::string name = "h51f " + nameOf(pattern);
+    const std::string name = "h51f_" + nameOf(pattern);
     if (!awkward)
       rows->push_back({name, nullptr, 1, [=](Random& random) { return makeMinimalProblem(random, pattern, 1); }, true});
     else
@@ -55,40 +56,40 @@ void addH51fRows(bool awkward, std::vector<Row>* rows) {
   }
 }
 
-std::vector<Row> rows(bool awkward) {
-  const struct {
-    const char* name;
-    solvers::SolveFunction solve;
-    std::vector<int> raysPerCamera;
-    int points;
-    std::size_t exactPoints;
-  } solvers[] = {
-      {"p4pf", &solvers::three_points::p4pf, {}, 4, 3},  {"p35pf", &solvers::three_points::p35pf, {}, 4, 3},
-      {"h13f", &solvers::three_points::h13f, {1}, 3, 3}, {"h32f [1]", &solvers::h32f::solve, {1, 1, 1}, 2, 2},
-      {"h32f [2]", &solvers::h32f::solve, {2, 1}, 2, 2}, {"h32f [3]", &solvers::h32f::solve, {3}, 2, 2},
-      {"h51f [5]", &solvers::h51f::solve, {5}, 1, 1},    {"sixpt_onefocal", &solvers::one_centre::sixptOnefocal, {6}, 0, 0}};
-  std::vector<Row> rows;
-  for (const auto& solver : solvers) {
-    if (!awkward) {
-      rows.push_back({solver.name, solver.solve, solver.exactPoints,
-                      [=](Random& random) { return makeMinimalProblem(random, solver.raysPerCamera, solver.points); }});
-      continue;
-    }
-    if (solver.points < 3) continue;
-    for (const AwkwardCase& c : awkwardCases())
-      if (!c.needsRay || !solver.raysPerCamera.empty())
-        rows.push_back({std::string(solver.name) + ", " + c.name, solver.solve, solver.exactPoints,
-                        [=](Random& random) { return makeAwkwardProblem(random, c, solver.raysPerCamera, solver.points); }});
+// The usual scene; or awkward ones with the three points that they are made for.
+void addRows(const SolverConfiguration& configuration, bool awkward, std::vector<Row>* rows) {
+  const solvers::MinimalSolver& solver = *configuration.solver;
+  const auto exactPoints = static_cast<std::size_t>(solver.exactCoordinates / 2);
+  const std::vector<int> pattern = configuration.raysPerCamera;
+  const int points = solver.points;
+  if (!awkward) {
+    rows->push_back({configuration.name, solver.solve, exactPoints,
+                     [=](Random& random) { return makeMinimalProblem(random, pattern, points); }});
+    return;
   }
+  if (points < 3) return;
+  for (const AwkwardCase& c : awkwardCases())
+    if (!c.needsRay || !pattern.empty())
+      rows->push_back({configuration.name + ", " + c.name, solver.solve, exactPoints,
+                       [=](Random& random) { return makeAwkwardProblem(random, c, pattern, points); }});
+}
+
+void addOneCentreRows(std::vector<Row>* rows) {
+  for (OneCentreKind kind : {OneCentreKind::FiveRaysOnePoint, OneCentreKind::SixRays})
+    for (const OneCentreAwkwardCase& c : oneCentreAwkwardCases()) {
+      const bool six = kind == OneCentreKind::SixRays;
+      rows->push_back({std::string(six ? "sixpt_onefocal, " : "h51f_5, ") + c.name,
+                       six ? &solvers::one_centre::sixptOnefocal : &solvers::one_centre::h51f, six ? 0u : 1u,
+                       [=](Random& random) { return makeOneCentreProblem(random, kind, c); }});
+    }
+}
+
+std::vector<Row> rows(bool awkward) {
+  std::vector<Row> rows;
+  for (const SolverConfiguration& configuration : solverConfigurations())
+    if (configuration.solver->solve != &solvers::h51f::solve) addRows(configuration, awkward, &rows);
   addH51fRows(awkward, &rows);
-  if (awkward)
-    for (OneCentreKind kind : {OneCentreKind::FiveRaysOnePoint, OneCentreKind::SixRays})
-      for (const OneCentreAwkwardCase& c : oneCentreAwkwardCases()) {
-        const bool six = kind == OneCentreKind::SixRays;
-        rows.push_back({std::string(six ? "sixpt_onefocal, " : "h51f [5], ") + c.name,
-                        six ? &solvers::one_centre::sixptOnefocal : &solvers::one_centre::h51f, six ? 0u : 1u,
-                        [=](Random& random) { return makeOneCentreProblem(random, kind, c); }});
-      }
+  if (awkward) addOneCentreRows(&rows);
   return rows;
 }
 

@@ -1,10 +1,11 @@
-// Time per call of every minimal solver, through its public function and an adapter, in microseconds and as a ratio to OpenGV's
+// Time per call of every minimal solver, through the body of its public function and an adapter, in microseconds and as a ratio to OpenGV's
 // gp3p in the same run.
 //
 //   solver_benchmark [--markdown] [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
 //
 // Every row cycles through 1000 different random problems. The repetitions of all rows are mixed in random order, so that other
-// work on the machine burdens all rows alike; the table shows medians. For a new solver add one line to kRows.
+// work on the machine burdens all rows alike; the table shows medians. A row per solver and way to share its rays among rig
+// cameras: h51f_32 has three rays of one camera and two of another.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
@@ -17,10 +18,9 @@
 
 #include "Gp3pProblem.hpp"
 #include "MinimalProblem.hpp"
+#include "SolverConfigurations.hpp"
 #include "TableReporter.hpp"
-#include "hybridgv/absolute_pose/methods.hpp"
-#include "hybridgv/hybrid_pose/methods.hpp"
-#include "hybridgv/relative_pose/methods.hpp"
+#include "hybrid_pose/solveSample.hpp"
 
 namespace hybridgv {
 namespace benchmarks {
@@ -30,35 +30,11 @@ constexpr int kProblems = 1000;
 constexpr std::uint64_t kSeed = 7102;
 constexpr double kRecovered = 1e-6;  // rotation [rad] and relative focal length
 
-using MultiIndices = std::vector<std::vector<int>>;
-using Call = FocalPoses (*)(const hybrid_pose::HybridAdapterBase&, const MultiIndices&);
+using test::SolverConfiguration;
 
-struct RowDescription {
-  const char* name;
-  std::vector<int> raysPerCamera;
-  int points;
-  Call call;
-};
-
-const std::vector<RowDescription> kRows = {
-    {"p4pf", {}, 4, [](const auto& adapter, const MultiIndices& i) { return absolute_pose::p4pf(adapter, i[1]); }},
-    {"p35pf", {}, 4, [](const auto& adapter, const MultiIndices& i) { return absolute_pose::p35pf(adapter, i[1]); }},
-    {"h13f", {1}, 3, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h13f(adapter, i); }},
-    {"h32f [1]", {1, 1, 1}, 2, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h32f(adapter, i); }},
-    {"h32f [2]", {2, 1}, 2, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h32f(adapter, i); }},
-    {"h32f [3]", {3}, 2, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h32f(adapter, i); }},
-    {"h51f [1]", {1, 1, 1, 1, 1}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"h51f [2] 2111", {2, 1, 1, 1}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"h51f [2] 221", {2, 2, 1}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"h51f [3] 311", {3, 1, 1}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"h51f [3] 32", {3, 2}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"h51f [4]", {4, 1}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"h51f [5]", {5}, 1, [](const auto& adapter, const MultiIndices& i) { return hybrid_pose::h51f(adapter, i); }},
-    {"sixpt_onefocal",
-     {6},
-     0,
-     [](const auto& adapter, const MultiIndices& i) { return relative_pose::sixpt_onefocal(adapter, i[0]); }},
-};
+FocalPoses solve(const SolverConfiguration& row, const NoncentralHybridAdapter& adapter) {
+  return hybrid_pose::solve(solvers::rowsOf(row.solver->name), adapter);
+}
 
 struct Statistics {
   int problems = 0, recovered = 0;
@@ -80,30 +56,25 @@ struct Statistics {
 // The problems of a row and what is found; made when the row is first run.
 struct SolverData {
   std::vector<NoncentralHybridAdapter> adapters;
-  MultiIndices indices = MultiIndices(2);
   Statistics statistics;
 
-  explicit SolverData(const RowDescription& row) {
-    int rays = 0;
-    for (int count : row.raysPerCamera) rays += count;
-    for (int i = 0; i < rays; ++i) indices[0].push_back(i);
-    for (int i = 0; i < row.points; ++i) indices[1].push_back(i);
+  explicit SolverData(const SolverConfiguration& row) {
     for (std::uint64_t i = 0; i < kProblems; ++i) {
       test::Random random(kSeed, i);
-      const test::MinimalProblem problem = test::makeMinimalProblem(random, row.raysPerCamera, row.points);
+      const test::MinimalProblem problem = test::makeMinimalProblem(random, row.raysPerCamera, row.solver->points);
       adapters.push_back(test::makeAdapter(problem));
-      const FocalPoses solutions = row.call(adapters.back(), indices);
+      const FocalPoses solutions = solve(row, adapters.back());
       statistics.add(solutions.size(), test::distanceToNearest(solutions, problem.truth));
     }
   }
 };
 
-void registerSolver(const RowDescription& row) {
-  benchmark::RegisterBenchmark(row.name, [&row, data = std::shared_ptr<SolverData>()](benchmark::State& state) mutable {
+void registerSolver(const SolverConfiguration& row) {
+  benchmark::RegisterBenchmark(row.name.c_str(), [row, data = std::shared_ptr<SolverData>()](benchmark::State& state) mutable {
     if (!data) data = std::make_shared<SolverData>(row);
     std::size_t i = 0;
     for (auto _ : state) {
-      benchmark::DoNotOptimize(row.call(data->adapters[i], data->indices));
+      benchmark::DoNotOptimize(solve(row, data->adapters[i]));
       i = (i + 1) % kProblems;
     }
     data->statistics.writeTo(state);
@@ -161,7 +132,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
   registerGp3p();
-  for (const RowDescription& row : kRows) registerSolver(row);
+  for (const SolverConfiguration& row : test::solverConfigurations()) registerSolver(row);
   TableReporter reporter("gp3p", markdown);
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();

@@ -1,6 +1,6 @@
 // The hybrid RANSAC on a few arbitrary correspondences: a result that can be relied on, a reason why there is none, or
 // std::invalid_argument for data that are not finite.
-#include "SolverFuzzer.hpp"
+#include "RawAdapter.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 
 namespace {

@@ -8,6 +8,7 @@
 
 #include "MinimalProblem.hpp"
 #include "SampleBytes.hpp"
+#include "SolverConfigurations.hpp"
 #include "TemporaryFolder.hpp"
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
@@ -51,6 +52,15 @@ void writeSamples(const std::filesystem::path& folder, const std::vector<std::ve
   }
 }
 
+// Every way to share the rays among rig cameras; the only one twice.
+std::vector<std::vector<int>> raysPerCamera(const solvers::SolverRows& problem) {
+  std::vector<std::vector<int>> result;
+  for (const test::SolverConfiguration& configuration : test::configurationsOf(problem))
+    result.push_back(configuration.raysPerCamera);
+  if (result.size() == 1) result.push_back(result[0]);
+  return result;
+}
+
 void writeModels(const std::filesystem::path& folder) {
   const test::TemporaryFolder files;
   files.write("cameras.txt", kCameras), files.write("images.txt", kImages), files.write("points3D.txt", kPoints);
@@ -79,12 +89,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   const std::filesystem::path folder = argv[1];
-  writeSamples(folder / "p4pf", {{}, {}}, 4);
-  writeSamples(folder / "p35pf", {{}, {}}, 4);
-  writeSamples(folder / "h13f", {{1}, {1}}, 3);
-  writeSamples(folder / "h32f", {{1, 1, 1}, {2, 1}, {3}}, 2);
-  writeSamples(folder / "h51f", {{1, 1, 1, 1, 1}, {2, 1, 1, 1}, {2, 2, 1}, {3, 1, 1}, {3, 2}, {4, 1}, {5}}, 1);
-  writeSamples(folder / "sixpt_onefocal", {{6}, {6}}, 0);
+  for (const hybridgv::solvers::SolverRows& problem : hybridgv::solvers::minimalProblems())
+    writeSamples(folder / problem.name(), raysPerCamera(problem), problem.points());
   writeSamples(folder / "hybrid_ransac", {{2, 2, 2}, {6}}, 8);
   writeModels(folder);
 }

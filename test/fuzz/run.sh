@@ -2,8 +2,9 @@
 # Fuzzes every solver, the hybrid RANSAC and every file reader, as many at a time as there are processor cores:
 # sh test/fuzz/run.sh SECONDS [NAME ...]
 #
-# Starts from the inputs in test/fuzz/corpus and from what earlier runs found (build/fuzz/corpus). An input that breaks a promise,
-# or takes more than 30 seconds, is left in build/fuzz/faults; to see the fault again: build/fuzz/test/fuzz/NAME_fuzzer FILE.
+# Starts from valid inputs (build/fuzz/seeds), those in test/fuzz/corpus and what earlier runs found (build/fuzz/corpus). An input
+# that breaks a promise, or takes more than 30 seconds, is left in build/fuzz/faults; to see the fault again:
+# build/fuzz/test/fuzz/NAME_fuzzer FILE, for a solver build/fuzz/test/fuzz/solver_fuzzer --solver=NAME FILE.
 # Exit status 1 if there was one. HYBRIDGV_FUZZ_SEED (default: another one every time) makes a run repeatable, up to its length.
 set -e
 seconds=${1:?usage: run.sh SECONDS [NAME ...]}
@@ -12,7 +13,9 @@ cd "$(dirname "$0")/../.."
 sh .ci/install_packages.sh clang-14 libclang-rt-14-dev cmake ninja-build libeigen3-dev
 [ -f build/fuzz/CMakeCache.txt ] || cmake --preset fuzz -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF >&2
 cmake --build build/fuzz --target fuzzers >&2
-[ $# -gt 0 ] || set -- p4pf p35pf h13f h32f h51f sixpt_onefocal hybrid_ransac colmap_text colmap_binary bundler nvm problem
+build/fuzz/test/fuzz/make_seeds build/fuzz/seeds
+solvers=$(build/fuzz/test/fuzz/solver_fuzzer --list)
+[ $# -gt 0 ] || set -- $solvers hybrid_ransac colmap_text colmap_binary bundler nvm problem
 
 status=0
 mkdir -p build/fuzz/rows

@@ -5,10 +5,14 @@ seconds=$1 name=$2
 corpus=build/fuzz/corpus/$name log=build/fuzz/$name.log
 mkdir -p "$corpus" build/fuzz/faults
 result=clean status=0
+program=build/fuzz/test/fuzz/${name}_fuzzer
+[ -x "$program" ] || program="build/fuzz/test/fuzz/solver_fuzzer --solver=$name"
+committed=test/fuzz/corpus/$name
+[ -d "$committed" ] || committed=
 # Not all of them use the words of the dictionary, which is no harm.
-build/fuzz/test/fuzz/"$name"_fuzzer -seed="${HYBRIDGV_FUZZ_SEED:-0}" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -malloc_limit_mb=256 \
+$program -seed="${HYBRIDGV_FUZZ_SEED:-0}" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -malloc_limit_mb=256 \
   -max_len=4096 -dict=test/fuzz/readers.dict -print_final_stats=1 -artifact_prefix=build/fuzz/faults/"$name"- \
-  "$corpus" test/fuzz/corpus/"$name" 2>"$log" || { result="FAULT, see $log"; status=1; }
+  "$corpus" $committed build/fuzz/seeds/"$name" 2>"$log" || { result="FAULT, see $log"; status=1; }
 executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
 coverage=$(sed -n 's/^#.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -1)
 printf '%-16s %12s %9s %9s %8s %s\n' "$name" "$executions" "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")" \

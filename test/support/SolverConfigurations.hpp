@@ -36,7 +36,8 @@ inline std::vector<std::vector<int>> waysToShare(int rays) {
 inline const solvers::MinimalSolver* solverFor(const solvers::SolverRows& problem, const std::vector<int>& raysPerCamera) {
   std::vector<solvers::RayMatch> rays;
   for (std::size_t camera = 0; camera < raysPerCamera.size(); ++camera)
-    for (int i = 0; i < raysPerCamera[camera]; ++i) rays.push_back({0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), static_cast<int>(camera)});
+    for (int i = 0; i < raysPerCamera[camera]; ++i)
+      rays.push_back({0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), static_cast<int>(camera)});
   return problem.forSample(rays.data());
 }
 

@@ -1,6 +1,4 @@
-// Runs a minimal solver, through its public function, on arbitrary doubles, and stops the program if it breaks a promise:
-// std::invalid_argument for data that are not finite, otherwise at most so many poses, each of which is one and satisfies the
-// equations up to rounding.
+// A fuzzer's sample as an adapter, and how a fuzzer reports a fault.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "EquationCheck.hpp"
 #include "SampleBytes.hpp"
 #include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
 #include "hybridgv/types.hpp"
@@ -51,28 +48,6 @@ inline bool isFinite(const Sample& sample) {
   };
   return std::all_of(sample.rays.begin(), sample.rays.end(), rayIsFinite) &&
          std::all_of(sample.points.begin(), sample.points.end(), pointIsFinite);
-}
-
-template <class Solve>
-int fuzzSolver(const std::uint8_t* data, std::size_t size, std::size_t rays, std::size_t points, std::size_t maxSolutions,
-               std::size_t exactCoordinates, Solve solve) {
-  const Sample sample = decodeSample(data, size, rays, points);
-  const RawAdapter adapter(sample);
-  FocalPoses poses;
-  try {
-    poses = solve(adapter);
-  } catch (const std::invalid_argument&) {
-    // Also for a ray without direction, and for rays of several cameras where one is demanded.
-    return 0;
-  }
-  if (!isFinite(sample)) reportFault("data that are not finite are refused");
-  if (poses.size() > maxSolutions) reportFault("there are not more solutions than the problem has");
-  const test::EquationCheck equations(sample.rays, sample.points, exactCoordinates);
-  for (const FocalPose& pose : poses) {
-    const std::string violation = equations.violation(pose);
-    if (!violation.empty()) reportFault(violation.c_str());
-  }
-  return 0;
 }
 
 }  // namespace fuzz

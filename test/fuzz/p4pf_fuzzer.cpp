@@ -1,8 +1,0 @@
-#include "SolverFuzzer.hpp"
-#include "hybridgv/absolute_pose/methods.hpp"
-
-// The fourth point satisfies one of its two equations only.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace hybridgv;
-  return fuzz::fuzzSolver(data, size, 0, 4, 6, 6, [](const fuzz::RawAdapter& adapter) { return absolute_pose::p4pf(adapter); });
-}
