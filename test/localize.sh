@@ -16,6 +16,7 @@ cmp "$scratch/a" "$scratch/b" || fail "--stdin"
 
 "$program" "$map" --query photo_03.jpg 4 --solver h13f | grep -q '^photo_03.jpg' || fail "--query and --solver"
 "$program" --help | grep -q -- '--outliers' || fail "--help"
+"$program" --help | tr -s '\n ' ' ' | grep -q 'all, p4pf, .*h51f' || fail "--help lists the solvers"
 expect_error() {
   message=$1 && shift
   "$program" "$@" > "$scratch/out" 2> "$scratch/error" && fail "$* must fail"

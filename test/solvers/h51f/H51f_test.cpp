@@ -340,6 +340,18 @@ TEST_P(H51fPatterns, RecognisesSharedCentres) {
   expectEqual(solve(inexact), expected, 1e-6);
 }
 
+// The table of minimal problems has the largest number for all of them.
+TEST(H51f, ConfigurationsHaveTheirOwnLargestNumbersOfSolutions) {
+  const struct {
+    RaysPerCamera pattern;
+    std::size_t most;
+  } rows[] = {{{3, 1, 1}, 50}, {{3, 2}, 50}, {{4, 1}, 36}};
+  Random random(testSeed(), 71);
+  for (const auto& row : rows)
+    for (int i = 0; i < 100; ++i)
+      EXPECT_LE(solve(makeMinimalProblem(random, row.pattern, 1)).size(), row.most) << nameOf(row.pattern);
+}
+
 TEST(H51f, FiveRaysOfOneCentreGoToTheirOwnSolver) {
   Random random(testSeed(), 70);
   MinimalProblem problem = makeMinimalProblem(random, {5}, 1);
