@@ -13,8 +13,8 @@ constexpr int kRigCameras = 5;
 // How the rig cameras stand to the query. All look at the origin from 15 .. 25, whatever the motion:
 //   random    from directions of their own
 //   forward   from the query's direction, up to 5 degrees: they differ in distance mainly
-//   sideways  from directions up to 45 degrees to the left or right of the query, up to 5 degrees above or below, and upright as
-//   it
+//   sideways  from directions up to 45 degrees to the left or right of the query and up to 5 degrees above or below, as upright as
+//             the query
 enum class Motion { Random, Forward, Sideways };
 inline const char* toString(Motion motion) {
   return motion == Motion::Random ? "random" : motion == Motion::Forward ? "forward" : "sideways";

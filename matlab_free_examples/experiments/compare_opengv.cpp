@@ -58,8 +58,8 @@ hybridgv::sac::HybridRansacResult estimate(const Settings& settings, const Nonce
   return hybridRansac(adapter, options);
 }
 
-// The query's 2D-3D matches as OpenGV wants them, for an assumed focal length. OpenGV's adapter keeps references: not to be
-// moved.
+// The query's 2D-3D matches as OpenGV wants them, for an assumed focal length. Not to be moved: OpenGV's adapter keeps
+// references to its members.
 struct CalibratedQuery {
   CalibratedQuery(const HybridScene& scene, double assumedFocalLength)
       : focalLength(assumedFocalLength), points(scene.points.begin(), scene.points.end()) {

@@ -13,10 +13,10 @@ struct SceneOptions {
   double imageNoise = 0;                             // [px] standard deviation per coordinate, query and map images
   double pointNoise = 0;                             // standard deviation of the 3D points per coordinate
   double outlierShareRays = 0;                       // these get a random image point
-  double outlierSharePoints = 0;                     // likewise
-  bool coplanar = false;                             // all points in one plane
+  double outlierSharePoints = 0;                     // these get a random image point, too
+  bool coplanar = false;                             // all scene points in one plane
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // moves the whole scene
-  double scale = 1;                                  // and scales it
+  double scale = 1;                                  // scales the whole scene
 };
 
 struct HybridScene {
@@ -85,8 +85,7 @@ inline HybridScene makeHybridScene(Random& random, const SceneOptions& options) 
   return scene;
 }
 
-// A pose near another one: rotated by up to `angle` [rad], moved by up to `distance`, focal length changed by up to the factor
-// exp(logFocal).
+// A pose near another one: rotated by up to `angle` [rad], moved by up to `distance`, focal length times up to exp(logFocal).
 inline FocalPose perturbed(Random& random, const FocalPose& pose, double angle, double distance, double logFocal) {
   FocalPose result = pose;
   const double turn = random.uniform(0, angle), step = random.uniform(0, distance);

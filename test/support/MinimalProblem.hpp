@@ -109,8 +109,7 @@ inline double distanceToNearest(const FocalPoses& poses, const FocalPose& truth)
 
 constexpr double kViolated = 1e9;
 
-// Distance of an image point from the image of a viewing ray, in pixels; kViolated unless both depths along the rays are
-// positive.
+// Distance of an image point from the image of a viewing ray, in pixels; kViolated unless the rays meet at positive depths.
 inline double rayResidual(const FocalPose& pose, const solvers::RayMatch& ray) {
   const Eigen::Vector3d b = toCamera(pose, ray.centre), a = pose.rotation.transpose() * ray.direction;
   const Eigen::Vector3d p(ray.u, ray.v, pose.focalLength);
@@ -128,8 +127,7 @@ inline double pointResidual(const FocalPose& pose, const solvers::PointMatch& ma
   return (project(pose, match.point) - Eigen::Vector2d(match.u, match.v)).norm();
 }
 
-// Largest violation, in pixels, of the equations of rays and the first `exactPoints` points; kViolated for a pose that is not
-// one.
+// Largest violation, in pixels, of the equations of rays and the first `exactPoints` points; kViolated for what is no pose.
 inline double largestResidual(const MinimalProblem& problem, const FocalPose& pose, std::size_t exactPoints) {
   double worst = (pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).norm();
   worst = std::max(worst, std::abs(pose.rotation.determinant() - 1));
