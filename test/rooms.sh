@@ -3,10 +3,10 @@
 # list. Folders on one line do not include each other. Test's headers are included by tests only.
 cd "$(dirname "$0")/.." || exit 1
 floors='
+.
 math/simd
 math
 math/roots math/dixon math/homotopy
-.
 correspondences
 solvers
 solvers/three_points solvers/one_centre solvers/h32f solvers/h51f

@@ -48,7 +48,8 @@ class H51fSphere : public testing::TestWithParam<RaysPerCamera> {
     return count;
   }
 };
-INSTANTIATE_TEST_SUITE_P(, H51fSphere, testing::ValuesIn(h51fPatterns()), [](const auto& info) { return nameOf(info.param); });
+INSTANTIATE_TEST_SUITE_P(, H51fSphere, testing::ValuesIn(h51fPatterns()),
+                         [](const auto& info) { return "RaysPerCamera" + nameOf(info.param); });
 
 // Whatever one method finds, the other one finds too; but the sphere's grid may be too coarse for a few.
 TEST_P(H51fSphere, AgreesWithTheHomotopy) {

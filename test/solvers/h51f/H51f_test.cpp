@@ -267,7 +267,8 @@ TEST_P(H51fLevels, SameResultEveryTime) {
 
 class H51fPatterns : public testing::TestWithParam<RaysPerCamera> {};
 
-INSTANTIATE_TEST_SUITE_P(, H51fPatterns, testing::ValuesIn(h51fPatterns()), [](const auto& info) { return nameOf(info.param); });
+INSTANTIATE_TEST_SUITE_P(, H51fPatterns, testing::ValuesIn(h51fPatterns()),
+                         [](const auto& info) { return "RaysPerCamera" + nameOf(info.param); });
 
 TEST_P(H51fPatterns, FindsAllRecordedSolutions) {
   const std::vector<GoldenProblem> problems = readGoldenProblems("h51f_" + nameOf(GetParam()) + ".txt");
