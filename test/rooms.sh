@@ -1,6 +1,6 @@
 #!/bin/sh
 # The rooms of src/doc/developers.md: a folder of src/ includes itself, the public headers and folders that come before it in this
-# list. Folders on one line do not include each other. Test's headers are included by tests only.
+# list. Folders on one line do not include each other; src/ itself (.) holds what belongs to no folder.
 cd "$(dirname "$0")/.." || exit 1
 floors='
 .
