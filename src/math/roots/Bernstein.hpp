@@ -33,7 +33,8 @@ SignChanges signChanges(const double (&b)[D + 1], double tolerance) {
       changes.least += differ;
       changes.most += free + ((free % 2 == 0) == differ);
     }
-    last = coefficient, free = 0;
+    last = coefficient;
+    free = 0;
   }
   changes.most += last == 0 ? (free > 0 ? free - 1 : 0) : free;
   return changes;

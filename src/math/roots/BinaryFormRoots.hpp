@@ -76,7 +76,8 @@ BinaryFormTables<D>::BinaryFormTables() {
   const double pi = 3.14159265358979323846;
   for (int j = 0; j < kPadded; ++j) {
     const double psi = std::min(j, D) * (pi / kSamples);
-    c[j] = std::cos(psi), s[j] = std::sin(psi);
+    c[j] = std::cos(psi);
+    s[j] = std::sin(psi);
   }
   // Samples 1-kOdd .. kOdd pair up; for even D, 1+kOdd is left.
   const int first = 1 - kOdd;
@@ -243,7 +244,8 @@ void BinaryFormRoots<D>::spread(const double* p, double smallToLarge, double* c,
   const double rootK = std::sqrt(std::max(0.03, roughPower(smallToLarge, 1.0 / D)));
   for (int j = 0; j < kPadded; ++j) {
     const double x = tables.c[j] * rootK, y = tables.s[j] / rootK;
-    c[j] = axisC * x - axisS * y, s[j] = axisS * x + axisC * y;
+    c[j] = axisC * x - axisS * y;
+    s[j] = axisS * x + axisC * y;
   }
 }
 
@@ -252,7 +254,8 @@ void BinaryFormRoots<D>::normalize(const double* c, const double* s, double* uni
   for (int j = 0; j < kPadded; ++j) {
     length[j] = std::sqrt(c[j] * c[j] + s[j] * s[j]);
     const double inverse = 1 / length[j];
-    unitC[j] = c[j] * inverse, unitS[j] = s[j] * inverse;
+    unitC[j] = c[j] * inverse;
+    unitS[j] = s[j] * inverse;
   }
 }
 
@@ -277,7 +280,8 @@ void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
   double c[kPadded], s[kPadded], unitC[kPadded], unitS[kPadded], length[kPadded], p[kPadded];
   for (int j = 0; j < kPadded; ++j) {
     const double beta = tables.s[j] / sEnd, alpha = tables.c[j] - beta * cEnd;
-    c[j] = alpha * piece.c0 + beta * piece.c1, s[j] = alpha * piece.s0 + beta * piece.s1;
+    c[j] = alpha * piece.c0 + beta * piece.c1;
+    s[j] = alpha * piece.s0 + beta * piece.s1;
   }
   normalize(c, s, unitC, unitS, length);
   ++samplings_;
@@ -340,7 +344,11 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
     for (int i = 0; i <= D; ++i) arc.b[i] = b[i][j / 2][j % 2];
     const int next = j + 1 < kSamples ? j + 1 : 0;
     const double sign = next ? 1 : -1;
-    arc.c0 = c[j], arc.s0 = s[j], arc.c1 = sign * c[next], arc.s1 = sign * s[next], arc.depth = 0;
+    arc.c0 = c[j];
+    arc.s0 = s[j];
+    arc.c1 = sign * c[next];
+    arc.s1 = sign * s[next];
+    arc.depth = 0;
     if (arc.signChanges() == 0 && !(level < kMaxLevel && arc.isBelow(kFaint))) {
       // Perhaps a double root that rounding has lifted off zero: lower the form by the uncertainty.
       const double shift = low[j] + high[j] > 0 ? kTau : -kTau;
@@ -420,9 +428,12 @@ bool BinaryFormRoots<D>::Piece::isBelow(double bound) const {
 template <int D>
 void BinaryFormRoots<D>::Piece::halve(Piece& left, Piece& right) const {
   math::halve<D>(b, left.b, right.b);
-  left.c0 = c0, left.s0 = s0;
-  right.c1 = c1, right.s1 = s1;
-  left.c1 = right.c0 = (left.c0 + right.c1) / 2, left.s1 = right.s0 = (left.s0 + right.s1) / 2;
+  left.c0 = c0;
+  left.s0 = s0;
+  right.c1 = c1;
+  right.s1 = s1;
+  left.c1 = right.c0 = (left.c0 + right.c1) / 2;
+  left.s1 = right.s0 = (left.s0 + right.s1) / 2;
   left.depth = right.depth = depth + 1;
 }
 
@@ -442,8 +453,10 @@ void BinaryFormRoots<D>::SimpleRoots::add(const Piece& piece, unsigned signChang
   const double t = reversed ? (1 - x) / x : x / (1 - x);
   start_[lane] = t < 1 ? t : 1;
   roots_[lane] = root;
-  c0_[lane] = reversed ? piece.c1 : piece.c0, s0_[lane] = reversed ? piece.s1 : piece.s0;
-  c1_[lane] = reversed ? piece.c0 : piece.c1, s1_[lane] = reversed ? piece.s0 : piece.s1;
+  c0_[lane] = reversed ? piece.c1 : piece.c0;
+  s0_[lane] = reversed ? piece.s1 : piece.s0;
+  c1_[lane] = reversed ? piece.c0 : piece.c1;
+  s1_[lane] = reversed ? piece.s0 : piece.s1;
   // positive at t = 1
   const double sign = middle < 0 ? -1 : 1;
   for (int k = 0; k <= D; ++k) coefficients_[k][lane] = sign * a[reversed ? D - k : k];

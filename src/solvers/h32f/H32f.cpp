@@ -14,8 +14,9 @@
 // image p leaves one equation s (A cos psi + B sin psi) + K = 0,
 //
 //     al = |l|^2 - e p.l,   g = (p - p5).l,   ga = p x p5 + a e d4,   a = (p - p5) x (p4 - p5),
-//     A = m1 al + m2 p x l + d (q1 ga + q2 g),   B = m2 al - m1 p x l + d (q2 ga - q1 g),   K = m3 (e |l|^2 + w p.l) - w a q3 d
-//     d4.
+//     A = m1 al + m2 p x l + d (q1 ga + q2 g),
+//     B = m2 al - m1 p x l + d (q2 ga - q1 g),
+//     K = m3 (e |l|^2 + w p.l) - w a q3 d d4.
 //
 // For fixed e these are three polynomials of degree 2 in tan(psi/2) and in d/e. They have a common root where their Dixon
 // determinant (math/dixon/DixonMatrix.hpp) vanishes, a polynomial of degree 26 in e apart from constant factors.
@@ -107,7 +108,11 @@ bool makeForms(const NormalizedProblem& n, const Vector2d& p4, Forms& f) {
     if (!(sum > rounding * rounding)) return false;
     const double scale = 1 / std::sqrt(sum);
     for (int b = 0; b < 3; ++b)
-      for (int c = 0; c < 3; ++c) f.a[b][c][j] *= scale, f.b[b][c][j] *= scale, f.k[b][c][j] *= scale;
+      for (int c = 0; c < 3; ++c) {
+        f.a[b][c][j] *= scale;
+        f.b[b][c][j] *= scale;
+        f.k[b][c][j] *= scale;
+      }
   }
   return true;
 }
@@ -185,8 +190,11 @@ void solveForPose(const Forms& elimination, const Forms& exact, const Kernel& ke
   kernel.newton(exact, againCount, again);
   for (int k = 0; k < againCount; ++k) {
     const int i = where[k];
-    candidates.e[i] = again.e[k], candidates.d[i] = again.d[k], candidates.step[i] = again.step[k];
-    candidates.cosPsi[i] = again.cosPsi[k], candidates.sinPsi[i] = again.sinPsi[k];
+    candidates.e[i] = again.e[k];
+    candidates.d[i] = again.d[k];
+    candidates.step[i] = again.step[k];
+    candidates.cosPsi[i] = again.cosPsi[k];
+    candidates.sinPsi[i] = again.sinPsi[k];
   }
 }
 

@@ -88,8 +88,10 @@ bool Search::sample(double* y, double& tolerance) const {
 void Search::searchPiece(const double (&coefficients)[kDegree + 1][kPieces], int j, double sign, double tolerance) {
   Piece piece;
   for (int i = 0; i <= kDegree; ++i) piece.b[i] = coefficients[i][j];
-  piece.e0 = sign * tables_.breakpoints[j], piece.e1 = sign * tables_.breakpoints[j + 1];
-  piece.tolerance = tolerance, piece.depth = piece.level = 0;
+  piece.e0 = sign * tables_.breakpoints[j];
+  piece.e1 = sign * tables_.breakpoints[j + 1];
+  piece.tolerance = tolerance;
+  piece.depth = piece.level = 0;
   search(piece);
 }
 
@@ -128,7 +130,8 @@ void Search::search(const Piece& whole) {
       right = left = piece;
       math::halve<kDegree>(piece.b, left.b, right.b);
       left.e1 = right.e0 = (piece.e0 + piece.e1) / 2;
-      ++left.depth, ++right.depth;
+      ++left.depth;
+      ++right.depth;
       size += 2;
     }
   }

@@ -67,7 +67,8 @@ SampleTables::SampleTables() {
   // Breakpoints at equal phase up to the largest node's end, then 1.
   for (int j = 0; j < kPieces; ++j)
     breakpoints[j] = static_cast<double>(rational.pointAtPhase(kHalf * kPi * (kPieces - 1 - j) / (kPieces - 1)));
-  breakpoints[0] = 0, breakpoints[kPieces] = 1;
+  breakpoints[0] = 0;
+  breakpoints[kPieces] = 1;
   for (int j = 0; j < kPieces; ++j) {
     // Row k: half the sum, row k + kHalf: half the difference of the cardinal functions of a node and its mirror image.
     Eigen::Matrix<long double, kSamples, kDegree + 1> values;
@@ -77,7 +78,8 @@ SampleTables::SampleTables() {
       for (int k = 0; k < kHalf; ++k) {
         const auto n = static_cast<std::size_t>(k);
         const long double own = cardinals[kHalf + n], mirrored = cardinals[kHalf - 1 - n];
-        values(k, i) = (own + mirrored) / 2, values(k + kHalf, i) = (own - mirrored) / 2;
+        values(k, i) = (own + mirrored) / 2;
+        values(k + kHalf, i) = (own - mirrored) / 2;
       }
     }
     const Eigen::Matrix<long double, kSamples, kDegree + 1> coefficients = values * bernsteinFromValues.transpose();

@@ -9,7 +9,10 @@ using math::Vec3;
 
 void OneFocalOrientation::Choice::add(bool first, Pair pp, Pair nn, Pair npt, Pair nat) {
   constexpr double kLeast = 1e-10 * 1e-10;  // sine^2 of the angle between t and p or a
-  if (first) sign = -signs(npt), valid = sign * sign > 0;
+  if (first) {
+    sign = -signs(npt);
+    valid = sign * sign > 0;
+  }
   valid &= (sign * npt < 0) & (sign * nat < 0) & (npt * npt > kLeast * pp * nn) & (nat * nat > kLeast * nn);
 }
 

@@ -21,7 +21,8 @@ struct FocalDenominator {
   explicit FocalDenominator(const Rows<T>& f) {
     const math::Vec3<T> v = cross(f.f1, f.f3), w = cross(f.f2, f.f3);
     const T d = dot(f.f1, f.f3), e = dot(f.f2, f.f3);
-    minuend = dot(v, v) + dot(w, w), subtrahend = d * d + e * e;
+    minuend = dot(v, v) + dot(w, w);
+    subtrahend = d * d + e * e;
   }
 };
 

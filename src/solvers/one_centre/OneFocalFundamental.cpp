@@ -26,12 +26,18 @@ struct Candidates {
   double x[kMaxCandidates], c[kMaxCandidates], s[kMaxCandidates];
 
   void add(double newX, double newC, double newS) {
-    x[count] = newX, c[count] = newC, s[count] = newS;
+    x[count] = newX;
+    c[count] = newC;
+    s[count] = newS;
     ++count;
   }
   // An odd last one is repeated to make a pair.
   void pad() {
-    if (count > 0) x[count] = x[count - 1], c[count] = c[count - 1], s[count] = s[count - 1];
+    if (count > 0) {
+      x[count] = x[count - 1];
+      c[count] = c[count - 1];
+      s[count] = s[count - 1];
+    }
   }
 };
 
@@ -125,7 +131,9 @@ Converged refine(const OneFocalPencil& pencil, Pair& x, Pair& c, Pair& s) {
       const double turn = std::abs(dpsi[lane]), shift = std::abs(dx[lane]);
       running[lane] = turn < 1 && std::isfinite(shift);
       if (!running[lane]) continue;
-      x[lane] += dx[lane], c[lane] = newC[lane], s[lane] = newS[lane];
+      x[lane] += dx[lane];
+      c[lane] = newC[lane];
+      s[lane] = newS[lane];
       const double step = shift / (1 + std::abs(x[lane])) + turn;
       converged[lane] = step < 1e-9 || (step < 1e-7 && step >= last[lane]);
       running[lane] = !converged[lane];
@@ -151,7 +159,10 @@ bool SixCorrespondences::normalize() {
   imageScale = 0;
   for (int k = 0; k < kSix; ++k) imageScale = std::max({imageScale, std::abs(u[k]), std::abs(v[k])});
   if (!(imageScale > 0)) return false;
-  for (int k = 0; k < kSix; ++k) u[k] /= imageScale, v[k] /= imageScale;
+  for (int k = 0; k < kSix; ++k) {
+    u[k] /= imageScale;
+    v[k] /= imageScale;
+  }
   return true;
 }
 

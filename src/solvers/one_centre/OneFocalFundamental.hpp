@@ -34,7 +34,11 @@ struct SixCorrespondences {
   double imageScale;
 
   void set(int k, double imageU, double imageV, const Eigen::Vector3d& direction) {
-    u[k] = imageU, v[k] = imageV, x[k] = direction[0], y[k] = direction[1], z[k] = direction[2];
+    u[k] = imageU;
+    v[k] = imageV;
+    x[k] = direction[0];
+    y[k] = direction[1];
+    z[k] = direction[2];
   }
   // Divides u, v by their largest magnitude; false if all are 0.
   bool normalize();

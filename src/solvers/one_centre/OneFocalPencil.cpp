@@ -23,8 +23,15 @@ struct DeterminantCubic {
 
   DeterminantCubic(const Rows<double>& b0, const Rows<double>& b1, const Rows<double>& b2) {
     const Rows<double> c0 = cofactors(b0), c1 = cofactors(b1), c2 = cofactors(b2);
-    xxx = dot(b0.f1, c0.f1), yyy = dot(b1.f1, c1.f1), www = dot(b2.f1, c2.f1);
-    xxy = dot(c0, b1), xxw = dot(c0, b2), xyy = dot(c1, b0), yyw = dot(c1, b2), xww = dot(c2, b0), yww = dot(c2, b1);
+    xxx = dot(b0.f1, c0.f1);
+    yyy = dot(b1.f1, c1.f1);
+    www = dot(b2.f1, c2.f1);
+    xxy = dot(c0, b1);
+    xxw = dot(c0, b2);
+    xyy = dot(c1, b0);
+    yyw = dot(c1, b2);
+    xww = dot(c2, b0);
+    yww = dot(c2, b1);
     const Rows<double> mixed{cross(b0.f2, b1.f3) + cross(b1.f2, b0.f3), cross(b0.f3, b1.f1) + cross(b1.f3, b0.f1),
                              cross(b0.f1, b1.f2) + cross(b1.f1, b0.f2)};
     xyw = dot(mixed, b2);
@@ -69,9 +76,13 @@ bool OneFocalPencil::build(const SixCorrespondences& correspondences) {
   const double wx = n[0] + std::copysign(1.0, n[0]), wy = n[1], wz = n[2];
   const double factor = 1 / (1 + std::abs(n[0]));
   const Rows<double> along = factor * (wx * n0 + wy * n1 + wz * n2);
-  b_ = n0 + (-wx) * along, y_ = n1 + (-wy) * along, w_ = n2 + (-wz) * along;
-  v2_ = cross(b_.f1, b_.f3), w2_ = cross(b_.f2, b_.f3);
-  d2_ = dot(b_.f1, b_.f3), e2_ = dot(b_.f2, b_.f3);
+  b_ = n0 + (-wx) * along;
+  y_ = n1 + (-wy) * along;
+  w_ = n2 + (-wz) * along;
+  v2_ = cross(b_.f1, b_.f3);
+  w2_ = cross(b_.f2, b_.f3);
+  d2_ = dot(b_.f1, b_.f3);
+  e2_ = dot(b_.f2, b_.f3);
   q4_ = d2_ * v2_ + e2_ * w2_;
   inverseDeterminant_ = 1 / dot(b_.f1, w2_);
   return true;

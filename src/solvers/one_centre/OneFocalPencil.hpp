@@ -40,7 +40,8 @@ Rows<T> cofactors(const Rows<T>& a) {
 // The longest of three (nearly) parallel vectors.
 inline const math::Vec3<double>& longest(const math::Vec3<double>& a, const math::Vec3<double>& b, const math::Vec3<double>& c) {
   const double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
-  return aa > bb ? (aa > cc ? a : c) : (bb > cc ? b : c);
+  if (aa > bb) return aa > cc ? a : c;
+  return bb > cc ? b : c;
 }
 
 class OneFocalPencil {

@@ -86,7 +86,9 @@ bool refineFrontoParallel(FrontoParallelPoint& point, const ThreePointFrame& fra
     const Eigen::Matrix3d normal = jacobian.transpose() * jacobian;
     const Eigen::Vector3d step = -normal.inverse() * (jacobian.transpose() * value);
     if (!step.allFinite()) return false;
-    point.u += step[0], point.v += step[1], point.d += step[2];
+    point.u += step[0];
+    point.v += step[1];
+    point.d += step[2];
     const double length = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) / (1 + std::abs(point.d));
     if (length < 1e-9 || (length < 1e-7 && length > last / 2)) return point.update(frame, side);
     last = length;

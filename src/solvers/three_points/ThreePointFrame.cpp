@@ -30,7 +30,9 @@ bool ThreePointFrame::set(const PointMatch& m1, const PointMatch& m2, const Poin
   a1 = side.dot(e1) / lengthUnit;
   b1 = a1 + 1;
   h = side.dot(e2) / lengthUnit;
-  p1 = image(m1.u, m1.v), p2 = image(m2.u, m2.v), p3 = image(m3.u, m3.v);
+  p1 = image(m1.u, m1.v);
+  p2 = image(m2.u, m2.v);
+  p3 = image(m3.u, m3.v);
   if (distance(p1, p2) < kCoincident || distance(p2, p3) < kCoincident || distance(p3, p1) < kCoincident) return false;
   D1 = p2 - p1;
   A11 = b1 * p2 - a1 * p1;

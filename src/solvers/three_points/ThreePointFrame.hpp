@@ -1,4 +1,5 @@
-// Three 2D-3D points seen with an unknown focal length f: the frame in which they become three linear relations.
+// Three 2D-3D points seen with an unknown focal length f: the frame in which they become three linear relations. Derived in
+// src/doc/three_points.md, sections "Notation" and "The frame", whose letters the members have.
 //
 // The query sees the rig point X at p = f (x + i y) / depth, (x, y, depth) = R X + t. With the rows r1, r2, r3 of R let
 // z = f (r1 + i r2), n = r3. Then n.n = 1, z.n = z.z = 0, n x z = -i z, and for any rig vector Y from point X3
@@ -28,11 +29,15 @@ namespace three_points {
 using math::ImagePoint;
 
 struct ThreePointFrame {
+  // In the rig's frame and unit: the axes, and the point X3.
   Eigen::Vector3d e1, e2, e3;
-  Eigen::Vector3d x3;            // in the rig's frame and unit
-  double imageUnit, lengthUnit;  // one unit here in the caller's units
+  Eigen::Vector3d x3;
+  // One unit here in the caller's units.
+  double imageUnit, lengthUnit;
+  // X1 = (a1, 0, 0), X2 = (b1, 0, 0), X3 = (0, -h, 0), and where they are seen.
   double a1, b1, h;
   ImagePoint p1, p2, p3;
+  // Coefficients of z1 and z2, as complex numbers.
   ImagePoint A11, A21, D1, D2;
 
   // Components of a direction of the rig's frame.

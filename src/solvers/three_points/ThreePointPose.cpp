@@ -11,7 +11,9 @@ FocalPose FramePose::inRig(const ThreePointFrame& frame) const {
     return frame.e1 * v[0] + frame.e2 * v[1] + frame.e3 * v[2];
   };
   FocalPose pose;
-  pose.rotation.col(0) = toRig(r1), pose.rotation.col(1) = toRig(r2), pose.rotation.col(2) = toRig(r3);
+  pose.rotation.col(0) = toRig(r1);
+  pose.rotation.col(1) = toRig(r2);
+  pose.rotation.col(2) = toRig(r3);
   pose.position = frame.x3 - frame.lengthUnit * (pose.rotation * x3);
   pose.focalLength = f * frame.imageUnit;
   return pose;

@@ -36,8 +36,10 @@ struct SurfacePoint {
   void move(double dPhi, double dTheta, double dEta) {
     const double scalePhi = 1 / std::sqrt(1 + dPhi * dPhi), scaleTheta = 1 / std::sqrt(1 + dTheta * dTheta);
     const double oldC = c, oldN3 = n3;
-    c = (c - dPhi * s) * scalePhi, s = (s + dPhi * oldC) * scalePhi;
-    n3 = (n3 - dTheta * rho) * scaleTheta, rho = (rho + dTheta * oldN3) * scaleTheta;
+    c = (c - dPhi * s) * scalePhi;
+    s = (s + dPhi * oldC) * scalePhi;
+    n3 = (n3 - dTheta * rho) * scaleTheta;
+    rho = (rho + dTheta * oldN3) * scaleTheta;
     eta += dEta;
   }
 

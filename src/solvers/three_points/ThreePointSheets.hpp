@@ -54,7 +54,8 @@ struct Sheets {
   void realRoots(const T& discriminant, T& first, T& second) const {
     const T zero{}, tiny = zero + 1e-300, root = math::sqrt(math::max(discriminant, zero));
     const T b = -0.5 * (w1 > zero ? w1 + root : w1 - root);
-    first = b / w2, second = w0 / (b == zero ? tiny : b);
+    first = b / w2;
+    second = w0 / (b == zero ? tiny : b);
   }
   // One of the conjugate roots for a negative discriminant.
   Complex complexRoot(double discriminant) const {
@@ -103,8 +104,10 @@ struct NormalProduct {
     const double area = im(frame.D2, frame.D1);
     isAccurate = area * area > 1e-6 * re(frame.D1, frame.D1) * re(frame.D2, frame.D2);
     const ImagePoint scaled = (-1 / area) * difference;
-    k11 = im(scaled, frame.A11 - frame.p3), k21 = im(scaled, frame.A21);
-    k1 = im(scaled, frame.D1), k2 = im(scaled, frame.D2);
+    k11 = im(scaled, frame.A11 - frame.p3);
+    k21 = im(scaled, frame.A21);
+    k1 = im(scaled, frame.D1);
+    k2 = im(scaled, frame.D2);
   }
 
   template <class A, class T>

@@ -33,7 +33,10 @@ struct Residual {
 template <std::size_t N>
 Residual sumOfTerms(const double (&terms)[N]) {
   Residual result{0, 0};
-  for (double term : terms) result.value += term, result.magnitude += std::abs(term);
+  for (double term : terms) {
+    result.value += term;
+    result.magnitude += std::abs(term);
+  }
   return result;
 }
 
@@ -95,7 +98,11 @@ class ThreePointSolver {
       const Candidate& candidate = candidates[i];
       if (count == 2 && candidate.quality > 1000 * candidates[1 - i].quality) continue;
       SurfacePoint point;
-      point.c = root.c, point.s = root.s, point.n3 = candidate.n3, point.rho = candidate.rho, point.eta = candidate.eta;
+      point.c = root.c;
+      point.s = root.s;
+      point.n3 = candidate.n3;
+      point.rho = candidate.rho;
+      point.eta = candidate.eta;
       if (refine(point, frame_, [this](const SurfacePoint& p) { return equation_.constraint(p); })) add(point.pose(frame_));
     }
   }
@@ -131,9 +138,13 @@ class ThreePointSolver {
     if (count_ == Equation::kDegree) return;
     int place = count_++;
     for (; place > 0 && ranks_[place - 1] > rank; --place) {
-      ranks_[place] = ranks_[place - 1], found_[place] = found_[place - 1], solutions_[place] = solutions_[place - 1];
+      ranks_[place] = ranks_[place - 1];
+      found_[place] = found_[place - 1];
+      solutions_[place] = solutions_[place - 1];
     }
-    ranks_[place] = rank, found_[place] = pose, solutions_[place] = pose.inRig(frame_);
+    ranks_[place] = rank;
+    found_[place] = pose;
+    solutions_[place] = pose.inRig(frame_);
   }
 
   // A candidate whose equation is violated by more than this share of its terms is on the wrong sheet.
