@@ -1,65 +1,98 @@
-// Complex numbers and image quantities for the inner loops of the solvers.
+// Complex numbers for inner loops: without std::complex's treatment of infinities, which costs a branch in every product. V is a
+// number, or a SIMD vector of numbers; then there is one complex number per lane.
 #pragma once
 
-#include "math/simd/Pair.hpp"
+#include "math/simd/Lanes.hpp"
 
 namespace hybridgv {
 namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
-// Complex number without std::complex's treatment of infinities, which costs a branch in every product.
+template <class V>
 struct Complex {
-  double re, im;
+  V re, im;
 };
-inline Complex operator+(Complex a, Complex b) { return {a.re + b.re, a.im + b.im}; }
-inline Complex operator-(Complex a, Complex b) { return {a.re - b.re, a.im - b.im}; }
-inline Complex operator*(Complex a, Complex b) { return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
-inline Complex operator+(Complex a, double b) { return {a.re + b, a.im}; }
-inline Complex operator+(double a, Complex b) { return b + a; }
-inline Complex operator-(Complex a, double b) { return {a.re - b, a.im}; }
-inline Complex operator-(double a, Complex b) { return {a - b.re, -b.im}; }
-inline Complex operator*(Complex a, double b) { return {a.re * b, a.im * b}; }
-inline Complex operator*(double a, Complex b) { return b * a; }
-inline Complex operator-(Complex a) { return {-a.re, -a.im}; }
-inline double squaredNorm(Complex a) { return a.re * a.re + a.im * a.im; }
-inline Complex operator/(Complex a, Complex b) {
-  const double scale = 1 / squaredNorm(b);
+
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator+(const Complex<V>& a, const Complex<V>& b) {
+  return {a.re + b.re, a.im + b.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator-(const Complex<V>& a, const Complex<V>& b) {
+  return {a.re - b.re, a.im - b.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator-(const Complex<V>& a) {
+  return {-a.re, -a.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator*(const Complex<V>& a, const Complex<V>& b) {
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator+(const Complex<V>& a, const V& b) {
+  return {a.re + b, a.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator+(const V& a, const Complex<V>& b) {
+  return {a + b.re, b.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator-(const Complex<V>& a, const V& b) {
+  return {a.re - b, a.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator-(const V& a, const Complex<V>& b) {
+  return {a - b.re, -b.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator*(const V& a, const Complex<V>& b) {
+  return {a * b.re, a * b.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator*(const Complex<V>& a, const V& b) {
+  return {a.re * b, a.im * b};
+}
+// c + a b and c - a b, in two fused operations per part where the processor has them
+template <class V>
+HYBRIDGV_INLINE Complex<V> addProduct(const Complex<V>& c, const Complex<V>& a, const Complex<V>& b) {
+  return {c.re + a.re * b.re - a.im * b.im, c.im + a.re * b.im + a.im * b.re};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> subtractProduct(const Complex<V>& c, const Complex<V>& a, const Complex<V>& b) {
+  return {c.re - a.re * b.re + a.im * b.im, c.im - a.re * b.im - a.im * b.re};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> twice(const Complex<V>& a) {
+  return {a.re + a.re, a.im + a.im};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> timesI(const Complex<V>& a) {
+  return {-a.im, a.re};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> conjugate(const Complex<V>& a) {
+  return {a.re, -a.im};
+}
+template <class V>
+HYBRIDGV_INLINE V squaredNorm(const Complex<V>& a) {
+  return a.re * a.re + a.im * a.im;
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> reciprocal(const Complex<V>& a) {
+  const V scale = 1 / squaredNorm(a);
+  return {a.re * scale, -a.im * scale};
+}
+template <class V>
+HYBRIDGV_INLINE Complex<V> operator/(const Complex<V>& a, const Complex<V>& b) {
+  const V scale = 1 / squaredNorm(b);
   return {(a.re * b.re + a.im * b.im) * scale, (a.im * b.re - a.re * b.im) * scale};
 }
+template <class V>
+HYBRIDGV_INLINE Complex<V> select(Mask<V> mask, const Complex<V>& yes, const Complex<V>& no) {
+  return {mask ? yes.re : no.re, mask ? yes.im : no.im};
+}
 
-// A quantity in the image plane, x + i y. Its coordinates are doubles, or Pairs, or (where a parameter of the problem is complex)
-// complex numbers themselves; then every formula is continued analytically, without conjugation.
-template <class T>
-struct Planar {
-  T x, y;
-};
-using ImagePoint = Planar<double>;
-
-template <class A, class B>
-auto operator+(const Planar<A>& a, const Planar<B>& b) -> Planar<decltype(a.x + b.x)> {
-  return {a.x + b.x, a.y + b.y};
-}
-template <class A, class B>
-auto operator-(const Planar<A>& a, const Planar<B>& b) -> Planar<decltype(a.x - b.x)> {
-  return {a.x - b.x, a.y - b.y};
-}
-// Real (or analytically continued) factor.
-template <class A, class B>
-auto operator*(const A& factor, const Planar<B>& b) -> Planar<decltype(factor * b.x)> {
-  return {factor * b.x, factor * b.y};
-}
-// Real and imaginary part of conj(a) b: the scalar product and the signed area.
-template <class A, class B>
-auto re(const Planar<A>& a, const Planar<B>& b) -> decltype(a.x * b.x) {
-  return a.x * b.x + a.y * b.y;
-}
-template <class A, class B>
-auto im(const Planar<A>& a, const Planar<B>& b) -> decltype(a.x * b.y) {
-  return a.x * b.y - a.y * b.x;
-}
-// Product of two image quantities as complex numbers.
-inline ImagePoint product(const ImagePoint& a, const ImagePoint& b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
-// i a
-inline ImagePoint timesI(const ImagePoint& a) { return {-a.y, a.x}; }
-
+}  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace math
 }  // namespace hybridgv

@@ -84,7 +84,7 @@ void normalEquationsRays(benchmark::State& state, const robust::Kernels& kernels
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const auto level : {math::SimdLevel::Sse2, math::SimdLevel::Avx2, math::SimdLevel::Avx512}) {
+  for (const auto level : {math::SimdLevel::Baseline, math::SimdLevel::Avx2, math::SimdLevel::Avx512}) {
     if (level > math::supportedSimdLevel()) continue;
     add("score_2d3d", level, scorePoints);
     add("score_2d2d", level, scoreRays);

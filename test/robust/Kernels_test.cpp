@@ -22,7 +22,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<SimdLevel> levels() {
   std::vector<SimdLevel> result;
-  for (const SimdLevel level : {SimdLevel::Sse2, SimdLevel::Avx2, SimdLevel::Avx512})
+  for (const SimdLevel level : {SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512})
     if (level <= math::supportedSimdLevel()) result.push_back(level);
   return result;
 }
@@ -234,7 +234,7 @@ TEST(Kernels, LeveragesAreEqualAtAllLevels) {
   for (const Loss loss : kLosses) {
     std::vector<double> expected(64), actual(64);
     const KindLoss spec{loss, 20, 0.5, 50};
-    kernels(SimdLevel::Sse2).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), expected.data());
+    kernels(SimdLevel::Baseline).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), expected.data());
     for (const SimdLevel level : levels()) {
       kernels(level).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), actual.data());
       for (std::size_t i = 0; i < 61; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-9 * (1 + expected[i]));
@@ -299,7 +299,7 @@ TEST(Kernels, NormalEquationsAreEqualAtAllLevels) {
   for (const Loss loss : kLosses) {
     const FocalPose pose = data.arrays.normalization().apply(data.poses[1]);
     const KindLoss spec{loss, 20, 0.5, 50};
-    const NormalEquations expected = sums(SimdLevel::Sse2, data, pose, spec, true, true);
+    const NormalEquations expected = sums(SimdLevel::Baseline, data, pose, spec, true, true);
     for (const SimdLevel level : levels()) {
       const NormalEquations actual = sums(level, data, pose, spec, true, true);
       if (std::isfinite(expected.cost)) {

@@ -30,37 +30,20 @@
 // V is a number, or a SIMD vector of numbers.
 #pragma once
 
-#include "math/simd/Lanes.hpp"
+#include "math/Vec3.hpp"
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
-
-template <class V>
-struct Vector3 {
-  V x, y, z;
-};
-
-template <class V>
-HYBRIDGV_INLINE Vector3<V> operator+(const Vector3<V>& a, const Vector3<V>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class V>
-HYBRIDGV_INLINE Vector3<V> cross(const Vector3<V>& a, const Vector3<V>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class V>
-HYBRIDGV_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 // A vector-valued polynomial of degree 2 in delta: coefficients of 1, delta, delta^2.
 template <class V>
-using Quadratic = Vector3<V>[3];
+using Quadratic = Vec3<V>[3];
 
 // z01 + z02 (delta + epsilon) + z12 delta epsilon
 template <class V>
 struct Bezoutian {
-  Vector3<V> z01, z02, z12;
+  Vec3<V> z01, z02, z12;
 };
 
 template <class V>
@@ -112,4 +95,5 @@ HYBRIDGV_INLINE void dixonMatrix(const Quadratic<V> (&p)[3], V (&m)[8][8]) {
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
 }  // namespace hybridgv

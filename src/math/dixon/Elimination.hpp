@@ -4,7 +4,8 @@
 #include "math/simd/Lanes.hpp"
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 // Swaps a and b in the lanes of the mask.
 HYBRIDGV_INLINE void swapWhere(DoubleMask mask, Doubles& a, Doubles& b) {
@@ -12,9 +13,6 @@ HYBRIDGV_INLINE void swapWhere(DoubleMask mask, Doubles& a, Doubles& b) {
   a = (Doubles)((DoubleMask)a ^ difference);
   b = (Doubles)((DoubleMask)b ^ difference);
 }
-
-HYBRIDGV_INLINE DoubleMask signBit() { return DoubleMask{} + static_cast<long long>(0x8000000000000000ULL); }
-HYBRIDGV_INLINE Doubles absolute(Doubles a) { return (Doubles)((DoubleMask)a & ~signBit()); }
 
 // 1 / a, and 1 / limit where |a| < limit.
 HYBRIDGV_INLINE Doubles boundedReciprocal(Doubles a, double limit) {
@@ -30,7 +28,7 @@ HYBRIDGV_INLINE Doubles eliminate(Doubles (&m)[Size][Size]) {
     for (int row = k + 1; row < Size; ++row) {
       const DoubleMask larger = absolute(m[row][k]) > absolute(m[k][k]);
       for (int c = k; c < Size; ++c) swapWhere(larger, m[k][c], m[row][c]);
-      determinant = (Doubles)((DoubleMask)determinant ^ (larger & signBit()));
+      determinant = (Doubles)((DoubleMask)determinant ^ (larger & signBit<Doubles>()));
     }
     determinant *= m[k][k];
     const Doubles inverse = boundedReciprocal(m[k][k], 1e-300);
@@ -54,4 +52,5 @@ HYBRIDGV_INLINE void nullVector(const Doubles (&m)[Size][Size], Doubles (&v)[Siz
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
 }  // namespace hybridgv

@@ -1,10 +1,11 @@
 // Gaussian elimination of small complex systems, one system per SIMD lane.
 #pragma once
 
-#include "math/simd/Lanes.hpp"
+#include "math/Complex.hpp"
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 enum class Pivoting { None, Rows };
 
@@ -45,4 +46,5 @@ HYBRIDGV_INLINE void solveInPlace(Complex<V> (&a)[N][Columns]) {
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
 }  // namespace hybridgv

@@ -23,7 +23,8 @@
 #include "math/homotopy/LinearSystem.hpp"
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 struct TrackingOptions {
   double tolerance;     // wanted size of the first Newton step
@@ -34,8 +35,6 @@ struct TrackingOptions {
   double smallestStep;  // a rejected step that would go below ends the path
   int attempts;         // accepted and rejected steps of a path, at most
 };
-
-using math::Point;
 
 template <class Scalar, int N>
 struct PathEnd {
@@ -285,4 +284,11 @@ void newtonSteps(const Homotopy& homotopy, Real<V> t, Point<Real<V>, System::kUn
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
+}  // namespace hybridgv
+
+namespace hybridgv {
+namespace HYBRIDGV_INSTRUCTION_SET {
+using namespace math;
+}
 }  // namespace hybridgv

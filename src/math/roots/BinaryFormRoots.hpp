@@ -23,7 +23,7 @@
 #include <cstring>
 
 #include "math/roots/Bernstein.hpp"
-#include "math/simd/Pair.hpp"
+#include "math/simd/Lanes.hpp"
 
 namespace hybridgv {
 namespace math {
@@ -316,12 +316,12 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
   Pair b[D + 1][kPairs], sum[kEven][kPairs], difference[kOdd][kPairs];
   for (int k = 0; k < kPairs; ++k) {
     const double* center = q + kSamples + 2 * k;
-    b[0][k] = load(center), b[D][k] = load(center + 1);
+    b[0][k] = load<Pair>(center), b[D][k] = load<Pair>(center + 1);
     for (int m = 0; m < kOdd; ++m) {
-      const Pair before = load(center - m), after = load(center + 1 + m);
+      const Pair before = load<Pair>(center - m), after = load<Pair>(center + 1 + m);
       sum[m][k] = before + after, difference[m][k] = before - after;
     }
-    if (kEven > kOdd) sum[kEven - 1][k] = load(center + 1 + kOdd);
+    if (kEven > kOdd) sum[kEven - 1][k] = load<Pair>(center + 1 + kOdd);
   }
   for (int i = 1; i <= Tables::kRows; ++i) {
     Pair symmetric[kPairs] = {}, antisymmetric[kPairs] = {};
@@ -334,7 +334,7 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
   double low[kPadded], high[kPadded];
   for (int k = 0; k < kPairs; ++k) {
     Pair least = b[0][k], greatest = b[0][k];
-    for (int i = 1; i <= D; ++i) least = min(least, b[i][k]), greatest = max(greatest, b[i][k]);
+    for (int i = 1; i <= D; ++i) least = smaller(least, b[i][k]), greatest = larger(greatest, b[i][k]);
     store(low + 2 * k, least), store(high + 2 * k, greatest);
   }
 
@@ -471,15 +471,15 @@ void BinaryFormRoots<D>::SimpleRoots::refine() {
     for (int k = 0; k <= D; ++k) coefficients_[k][lane] = coefficients_[k][0];
   }
   Pair t[kPairs], low[kPairs], high[kPairs];
-  for (int j = 0; j < kPairs; ++j) t[j] = load(&start_[2 * j]), low[j] = Pair{0, 0}, high[j] = Pair{1, 1};
+  for (int j = 0; j < kPairs; ++j) t[j] = load<Pair>(&start_[2 * j]), low[j] = Pair{0, 0}, high[j] = Pair{1, 1};
   for (int iteration = 0; iteration < 60; ++iteration) {
     Pair value[kPairs], slope[kPairs], curvature[kPairs], step{0, 0};  // curvature: half the second derivative
-    for (int j = 0; j < kPairs; ++j) value[j] = load(coefficients_[D] + 2 * j), slope[j] = curvature[j] = Pair{0, 0};
+    for (int j = 0; j < kPairs; ++j) value[j] = load<Pair>(coefficients_[D] + 2 * j), slope[j] = curvature[j] = Pair{0, 0};
     for (int k = D - 1; k >= 0; --k)
       for (int j = 0; j < kPairs; ++j) {
         curvature[j] = curvature[j] * t[j] + slope[j];
         slope[j] = slope[j] * t[j] + value[j];
-        value[j] = value[j] * t[j] + load(coefficients_[k] + 2 * j);
+        value[j] = value[j] * t[j] + load<Pair>(coefficients_[k] + 2 * j);
       }
     for (int j = 0; j < kPairs; ++j) {
       high[j] = value[j] > 0 ? t[j] : high[j];
@@ -487,7 +487,7 @@ void BinaryFormRoots<D>::SimpleRoots::refine() {
       Pair next = t[j] - value[j] * slope[j] / (slope[j] * slope[j] - value[j] * curvature[j]);
       next = next >= low[j] ? next : (low[j] + high[j]) / 2;
       next = next <= high[j] ? next : (low[j] + high[j]) / 2;
-      step = max(step, abs(next - t[j]));
+      step = larger(step, absolute(next - t[j]));
       t[j] = next;
     }
     if (step[0] < 1e-4 && step[1] < 1e-4) break;

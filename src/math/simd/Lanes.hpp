@@ -1,36 +1,47 @@
-// Vectors of real numbers, one number per SIMD lane.
+// Vectors of real numbers, one number per SIMD lane: the only vector types of the library, and what is done with them.
+//
+// +, -, *, / and comparisons work lane by lane, also with a number. The functions take a number as well, as a vector of one lane,
+// so that a formula that is a template serves for both.
 //
 // A file that includes this header may be compiled several times, for different instruction sets. Everything in it then lives in
-// a namespace named after the set, so that the linker cannot take one version's inline function for another's. For the same
-// reason nothing here calls the standard library's templates.
+// an inline namespace named after the set, so that the linker cannot take one version's inline function for another's. For the
+// same reason nothing here calls the standard library's templates. Files that are compiled only once need not name a set.
 #pragma once
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
 #endif
 
 #ifndef HYBRIDGV_INSTRUCTION_SET
-#define HYBRIDGV_INSTRUCTION_SET baseline
+#define HYBRIDGV_INSTRUCTION_SET ordinary
 #endif
 
 #define HYBRIDGV_INLINE __attribute__((always_inline)) inline
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 // The widest vectors of the instruction set that this file is compiled for.
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-constexpr int kVectorBytes = 64;
+#define HYBRIDGV_VECTOR_BYTES 64
 #elif defined(__AVX2__)
-constexpr int kVectorBytes = 32;
+#define HYBRIDGV_VECTOR_BYTES 32
 #else
-constexpr int kVectorBytes = 16;
+#define HYBRIDGV_VECTOR_BYTES 16
 #endif
-using Floats = float __attribute__((vector_size(kVectorBytes)));
-using Doubles = double __attribute__((vector_size(kVectorBytes)));
+constexpr int kVectorBytes = HYBRIDGV_VECTOR_BYTES;
+using Floats = float __attribute__((vector_size(HYBRIDGV_VECTOR_BYTES)));
+using Doubles = double __attribute__((vector_size(HYBRIDGV_VECTOR_BYTES)));
+// Two numbers: what fits the registers of every processor. The same type as Doubles where these are no wider.
+using Pair = double __attribute__((vector_size(16)));
+
 // What comparing two of them gives: all bits of a lane set where the comparison holds.
-using FloatMask = int __attribute__((vector_size(kVectorBytes)));
-using DoubleMask = long long __attribute__((vector_size(kVectorBytes)));
+using FloatMask = decltype(Floats{} < Floats{});
+using DoubleMask = decltype(Doubles{} < Doubles{});
+using PairMask = decltype(Pair{} < Pair{});
 
 template <class V>
 struct LaneTraits;
@@ -46,14 +57,39 @@ struct LaneTraits<Doubles> {
   using Mask = DoubleMask;
   static constexpr int kWidth = kVectorBytes / 8;
 };
+#if HYBRIDGV_VECTOR_BYTES > 16
+template <>
+struct LaneTraits<Pair> {
+  using Real = double;
+  using Mask = PairMask;
+  static constexpr int kWidth = 2;
+};
+#endif
+template <>
+struct LaneTraits<double> {
+  using Real = double;
+  using Mask = bool;
+  static constexpr int kWidth = 1;
+};
 template <class V>
 using Real = typename LaneTraits<V>::Real;
 template <class V>
 using Mask = typename LaneTraits<V>::Mask;
 
 template <class V>
+HYBRIDGV_INLINE V load(const Real<V>* from) {
+  V result;
+  __builtin_memcpy(&result, from, sizeof result);
+  return result;
+}
+template <class V>
+HYBRIDGV_INLINE void store(Real<V>* to, V value) {
+  __builtin_memcpy(to, &value, sizeof value);
+}
+// Subtracting 0 changes no number, so that the compiler leaves it out; adding 0 would change -0.
+template <class V>
 HYBRIDGV_INLINE V broadcast(Real<V> value) {
-  return V{} + value;
+  return value - V{};
 }
 template <class V>
 HYBRIDGV_INLINE V select(Mask<V> mask, V yes, V no) {
@@ -68,23 +104,45 @@ template <class V>
 HYBRIDGV_INLINE V larger(V a, V b) {
   return a > b ? a : b;
 }
+template <class V>
+HYBRIDGV_INLINE Mask<V> signBit() {
+  return (Mask<V>)(-V{});
+}
+template <class V>
+HYBRIDGV_INLINE V absolute(V a) {
+  return (V)((Mask<V>)a & ~signBit<V>());
+}
+HYBRIDGV_INLINE double absolute(double a) { return __builtin_fabs(a); }
 
-// Bit i is set if lane i is.
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+// bits(mask): bit i is set if lane i is.
+#if defined(__x86_64__)
+HYBRIDGV_INLINE unsigned bits(PairMask mask) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask)); }
+HYBRIDGV_INLINE Pair squareRoot(Pair x) { return _mm_sqrt_pd(x); }
+#if HYBRIDGV_VECTOR_BYTES == 64
 HYBRIDGV_INLINE unsigned bits(FloatMask mask) { return _mm512_movepi32_mask((__m512i)mask); }
 HYBRIDGV_INLINE unsigned bits(DoubleMask mask) { return _mm512_movepi64_mask((__m512i)mask); }
 HYBRIDGV_INLINE Floats squareRoot(Floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
 HYBRIDGV_INLINE Doubles squareRoot(Doubles x) { return _mm512_maskz_sqrt_pd(0xff, x); }
-#elif defined(__AVX2__)
+#elif HYBRIDGV_VECTOR_BYTES == 32
 HYBRIDGV_INLINE unsigned bits(FloatMask mask) { return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask)); }
 HYBRIDGV_INLINE unsigned bits(DoubleMask mask) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask)); }
 HYBRIDGV_INLINE Floats squareRoot(Floats x) { return _mm256_sqrt_ps(x); }
 HYBRIDGV_INLINE Doubles squareRoot(Doubles x) { return _mm256_sqrt_pd(x); }
-#elif defined(__x86_64__)
+#else
 HYBRIDGV_INLINE unsigned bits(FloatMask mask) { return static_cast<unsigned>(_mm_movemask_ps((__m128)mask)); }
-HYBRIDGV_INLINE unsigned bits(DoubleMask mask) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask)); }
 HYBRIDGV_INLINE Floats squareRoot(Floats x) { return _mm_sqrt_ps(x); }
-HYBRIDGV_INLINE Doubles squareRoot(Doubles x) { return _mm_sqrt_pd(x); }
+#endif
+#elif defined(__aarch64__)
+HYBRIDGV_INLINE unsigned bits(FloatMask mask) {
+  constexpr FloatMask kBitOfLane = {1, 2, 4, 8};
+  return vaddvq_u32((uint32x4_t)(mask & kBitOfLane));
+}
+HYBRIDGV_INLINE unsigned bits(DoubleMask mask) {
+  constexpr DoubleMask kBitOfLane = {1, 2};
+  return static_cast<unsigned>(vaddvq_u64((uint64x2_t)(mask & kBitOfLane)));
+}
+HYBRIDGV_INLINE Floats squareRoot(Floats x) { return (Floats)vsqrtq_f32((float32x4_t)x); }
+HYBRIDGV_INLINE Doubles squareRoot(Doubles x) { return (Doubles)vsqrtq_f64((float64x2_t)x); }
 #else
 template <class M>
 HYBRIDGV_INLINE unsigned bits(M mask) {
@@ -101,67 +159,20 @@ HYBRIDGV_INLINE Doubles squareRoot(Doubles x) {
   return x;
 }
 #endif
+HYBRIDGV_INLINE double squareRoot(double x) { return __builtin_sqrt(x); }
 
-// A complex number per lane, real and imaginary parts in separate vectors.
-template <class V>
-struct Complex {
-  V re, im;
-};
-
-template <class V>
-HYBRIDGV_INLINE Complex<V> operator+(const Complex<V>& a, const Complex<V>& b) {
-  return {a.re + b.re, a.im + b.im};
+template <class M>
+HYBRIDGV_INLINE bool any(M mask) {
+  return bits(mask) != 0;
 }
+// From the first lane to the last.
 template <class V>
-HYBRIDGV_INLINE Complex<V> operator-(const Complex<V>& a, const Complex<V>& b) {
-  return {a.re - b.re, a.im - b.im};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> operator-(const Complex<V>& a) {
-  return {-a.re, -a.im};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> operator*(const Complex<V>& a, const Complex<V>& b) {
-  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> operator*(const V& a, const Complex<V>& b) {
-  return {a * b.re, a * b.im};
-}
-// c + a b and c - a b, in two fused operations per part where the processor has them
-template <class V>
-HYBRIDGV_INLINE Complex<V> addProduct(const Complex<V>& c, const Complex<V>& a, const Complex<V>& b) {
-  return {c.re + a.re * b.re - a.im * b.im, c.im + a.re * b.im + a.im * b.re};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> subtractProduct(const Complex<V>& c, const Complex<V>& a, const Complex<V>& b) {
-  return {c.re - a.re * b.re + a.im * b.im, c.im - a.re * b.im - a.im * b.re};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> twice(const Complex<V>& a) {
-  return {a.re + a.re, a.im + a.im};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> timesI(const Complex<V>& a) {
-  return {-a.im, a.re};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> conjugate(const Complex<V>& a) {
-  return {a.re, -a.im};
-}
-template <class V>
-HYBRIDGV_INLINE V squaredNorm(const Complex<V>& a) {
-  return a.re * a.re + a.im * a.im;
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> reciprocal(const Complex<V>& a) {
-  const V scale = 1 / squaredNorm(a);
-  return {a.re * scale, -a.im * scale};
-}
-template <class V>
-HYBRIDGV_INLINE Complex<V> select(Mask<V> mask, const Complex<V>& yes, const Complex<V>& no) {
-  return {mask ? yes.re : no.re, mask ? yes.im : no.im};
+HYBRIDGV_INLINE Real<V> sum(V value) {
+  Real<V> result = 0;
+  for (int i = 0; i < LaneTraits<V>::kWidth; ++i) result += value[i];
+  return result;
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
 }  // namespace hybridgv

@@ -1,14 +1,14 @@
 #include "robust/kernels/Kernels.hpp"
 
+#include "math/simd/versions.hpp"
+
 namespace hybridgv {
 namespace robust {
 
+HYBRIDGV_VERSIONS(Kernels, kKernels)
+
 const Kernels& kernels(math::SimdLevel level) {
-#if defined(HYBRIDGV_X86_KERNELS)
-  if (level == math::SimdLevel::Avx512) return kKernelsAvx512;
-  if (level == math::SimdLevel::Avx2) return kKernelsAvx2;
-#endif
-  return kKernelsSse2;
+  return math::choose(level, baseline::kKernels, avx2::kKernels, avx512::kKernels);
 }
 
 const Kernels& kernels() { return kernels(math::simdLevel()); }

@@ -68,10 +68,6 @@ struct Kernels {
   void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
 };
 
-extern const Kernels kKernelsSse2;
-extern const Kernels kKernelsAvx2;
-extern const Kernels kKernelsAvx512;
-
 // `level` must be supported by the processor.
 const Kernels& kernels(math::SimdLevel level);
 // The best ones (see simdLevel).

@@ -15,10 +15,8 @@ using EndPoints = math::EndPoints<kUnknowns, kMaxPaths>;
 // Bounded time, no allocation. The level must not exceed math::supportedSimdLevel().
 void solvePaths(math::SimdLevel level, const StartSystem& start, const Parameters& target, EndPoints* ends);
 
-// Its versions, one per instruction set.
-void solvePathsSse2(const StartSystem& start, const Parameters& target, EndPoints* ends);
-void solvePathsAvx2(const StartSystem& start, const Parameters& target, EndPoints* ends);
-void solvePathsAvx512(const StartSystem& start, const Parameters& target, EndPoints* ends);
+// One of its versions, see math/simd/versions.hpp.
+using SolvePaths = void (*)(const StartSystem& start, const Parameters& target, EndPoints* ends);
 
 }  // namespace h51f
 }  // namespace solvers

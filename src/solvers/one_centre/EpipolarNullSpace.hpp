@@ -1,7 +1,7 @@
 // The fundamental matrices that are consistent with six correspondences.
 #pragma once
 
-#include "math/simd/Pair.hpp"
+#include "math/simd/Lanes.hpp"
 #include "solvers/one_centre/OneFocalFundamental.hpp"
 
 namespace hybridgv {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "math/Vec3.hpp"
-#include "math/simd/Pair.hpp"
 #include "solvers/one_centre/OneFocalFundamental.hpp"
 #include "solvers/one_centre/OneFocalPencil.hpp"
 
@@ -11,7 +10,7 @@ namespace solvers {
 namespace one_centre {
 
 // 1 or -1
-inline math::Pair signs(math::Pair a) { return a < 0 ? math::Pair{-1, -1} : math::Pair{1, 1}; }
+inline math::Pair signs(math::Pair a) { return math::select<math::Pair>(a < 0, math::Pair{-1, -1}, math::Pair{1, 1}); }
 
 // |f3|^4 / f^2 = |f1 x f3|^2 + |f2 x f3|^2 - (f1.f3)^2 - (f2.f3)^2 as minuend and subtrahend.
 template <class T>
@@ -37,14 +36,14 @@ struct OneFocalDecomposition {
     using math::Pair;
     const FocalDenominator<Pair> denominator(f);
     const Pair ff = dot(f.f3, f.f3);
-    focal = ff / math::sqrt(denominator.minuend - denominator.subtrahend);
-    const Pair scale = math::sqrt(2 / (focal * focal * (dot(f.f1, f.f1) + dot(f.f2, f.f2)) + ff)), scaleF = scale * focal;
+    focal = ff / math::squareRoot(denominator.minuend - denominator.subtrahend);
+    const Pair scale = math::squareRoot(2 / (focal * focal * (dot(f.f1, f.f1) + dot(f.f2, f.f2)) + ff)), scaleF = scale * focal;
     const Rows<Pair> E{scaleF * f.f1, scaleF * f.f2, scale * f.f3};
     // cof(E) = (R b) b^T
     const Rows<Pair> cof = cofactors(E);
     const Pair sign2 = signs(dot(cof.f1, cof.f2)), sign3 = signs(dot(cof.f1 + sign2 * cof.f2, cof.f3));
     const math::Vec3<Pair> sum = cof.f1 + sign2 * cof.f2 + sign3 * cof.f3;
-    baseline = (1 / math::sqrt(dot(sum, sum))) * sum;
+    baseline = (1 / math::squareRoot(dot(sum, sum))) * sum;
     rotation = {cof.f1 + cross(baseline, E.f1), cof.f2 + cross(baseline, E.f2), cof.f3 + cross(baseline, E.f3)};
     baselineInQuery = {dot(rotation.f1, baseline), dot(rotation.f2, baseline), dot(rotation.f3, baseline)};
   }
@@ -61,14 +60,13 @@ class OneFocalOrientation {
   bool motion(const OneFocalDecomposition& decomposition, int lane, OneFocalMotion& result) const;
 
  private:
-  using Mask = decltype(math::Pair{} < math::Pair{});
   // Whether both products of all points seen so far have the sign -sign.
   struct Choice {
     math::Pair sign;
-    Mask valid;
+    math::PairMask valid;
 
     void add(bool first, math::Pair pp, math::Pair nn, math::Pair npt, math::Pair nat);
-    bool isAlive() const { return (valid[0] | valid[1]) != 0; }
+    bool isAlive() const { return math::any(valid); }
   };
   Choice choices_[2];  // R and the other rotation
 };

@@ -5,7 +5,6 @@
 
 #include "math/Vec3.hpp"
 #include "math/roots/BinaryFormRoots.hpp"
-#include "math/simd/Pair.hpp"
 #include "solvers/one_centre/OneFocalDecomposition.hpp"
 #include "solvers/one_centre/OneFocalPencil.hpp"
 
@@ -52,7 +51,7 @@ int rootDirections(const OneFocalPencil& pencil, const SixCorrespondences& data,
     return Deflated::findSampled(
         [&](const double* c, const double* s, double* p) {
           for (int j = 0; j < Deflated::kPadded; j += 2) {
-            const Pair cs = math::load(c + j), sn = math::load(s + j), factor = cs * known.s - sn * known.c;
+            const Pair cs = math::load<Pair>(c + j), sn = math::load<Pair>(s + j), factor = cs * known.s - sn * known.c;
             math::store(p + j, pencil.form(cs, sn) / (factor * factor));
           }
         },
@@ -60,7 +59,8 @@ int rootDirections(const OneFocalPencil& pencil, const SixCorrespondences& data,
   }
   return Full::findSampled(
       [&](const double* c, const double* s, double* p) {
-        for (int j = 0; j < Full::kPadded; j += 2) math::store(p + j, pencil.form(math::load(c + j), math::load(s + j)));
+        for (int j = 0; j < Full::kPadded; j += 2)
+          math::store(p + j, pencil.form(math::load<Pair>(c + j), math::load<Pair>(s + j)));
       },
       roots);
 }
@@ -175,7 +175,7 @@ int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotio
   candidates.pad();
   int count = 0;
   for (int i = 0; i < candidates.count; i += 2) {
-    Pair x = math::load(candidates.x + i), c = math::load(candidates.c + i), s = math::load(candidates.s + i);
+    Pair x = math::load<Pair>(candidates.x + i), c = math::load<Pair>(candidates.c + i), s = math::load<Pair>(candidates.s + i);
     const Converged converged = refine(pencil, x, c, s);
     const OneFocalDecomposition decomposition(pencil.at(x, c, s));
     const OneFocalOrientation orientation(correspondences, decomposition);

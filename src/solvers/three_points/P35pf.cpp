@@ -29,7 +29,7 @@ class CoordinateEquation {
   template <class T>
   T product(const Sheets<T>& at, const Sheet<T>& first, const Sheet<T>& second) const {
     const T F = im(at.f1, at.f0), one = T{} + 1;
-    const T n3First = first.n3(), n3Second = second.n3(), difference = math::abs(n3First) - math::abs(n3Second);
+    const T n3First = first.n3(), n3Second = second.n3(), difference = math::absolute(n3First) - math::absolute(n3Second);
     // The factor F^2 goes to the root with the larger |n3|.
     const T factor1 = signProduct(at, first, difference > T{} ? F : one, difference > T{} ? re(at.f1, first.zr) : n3First);
     const T factor2 = signProduct(at, second, difference > T{} ? one : F, difference > T{} ? n3Second : re(at.f1, second.zr));

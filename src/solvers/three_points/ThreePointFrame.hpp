@@ -19,7 +19,7 @@
 
 #include <Eigen/Core>
 
-#include "math/Complex.hpp"
+#include "math/Planar.hpp"
 #include "solvers/MinimalSolver.hpp"
 
 namespace hybridgv {

@@ -16,7 +16,7 @@ namespace hybridgv {
 namespace solvers {
 namespace three_points {
 
-using math::Complex;
+using Complex = math::Complex<double>;
 using math::Pair;
 using math::Planar;
 
@@ -43,8 +43,8 @@ struct Sheets {
     w0 = re(r0, f0);
     w1 = re(r0, f1) + re(r1, f0);
     w2 = re(r1, f1);
-    const T least = 1e-30 * math::abs(w1);
-    w2 = math::abs(w2) < least ? least : w2;
+    const T least = 1e-30 * math::absolute(w1);
+    w2 = math::absolute(w2) < least ? least : w2;
   }
 
   Polar<T> polar(const Eigen::Vector3d& v) const { return {v, c, s}; }
@@ -52,7 +52,7 @@ struct Sheets {
 
   // Both roots eta, without cancellation. A negative discriminant counts as zero.
   void realRoots(const T& discriminant, T& first, T& second) const {
-    const T zero{}, tiny = zero + 1e-300, root = math::sqrt(math::max(discriminant, zero));
+    const T zero{}, tiny = zero + 1e-300, root = math::squareRoot(math::larger(discriminant, zero));
     const T b = -0.5 * (w1 > zero ? w1 + root : w1 - root);
     first = b / w2;
     second = w0 / (b == zero ? tiny : b);

@@ -67,7 +67,7 @@ class ThreePointSolver {
 
   // The form at two directions.
   void samplePair(const double* c, const double* s, double* p) const {
-    const Sheets<Pair> at(frame_, math::load(c), math::load(s));
+    const Sheets<Pair> at(frame_, math::load<Pair>(c), math::load<Pair>(s));
     const Pair discriminant = at.discriminant();
     Pair first, second;
     at.realRoots(discriminant, first, second);

@@ -1,5 +1,3 @@
-// The instruction set that the test itself is compiled for.
-#define HYBRIDGV_INSTRUCTION_SET sse2
 #include "math/dixon/DixonMatrix.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +13,8 @@ namespace hybridgv {
 namespace test {
 namespace {
 
-using sse2::dixonMatrix;
-using sse2::Quadratic;
+using math::dixonMatrix;
+using math::Quadratic;
 
 // Three polynomials sum c_ab tau^a delta^b of degree 2 in both.
 struct Polynomials {

@@ -1,5 +1,3 @@
-// The instruction set that the test itself is compiled for.
-#define HYBRIDGV_INSTRUCTION_SET sse2
 #include "math/dixon/Elimination.hpp"
 
 #include <gtest/gtest.h>
@@ -14,9 +12,9 @@ namespace hybridgv {
 namespace test {
 namespace {
 
-using sse2::Doubles;
+using math::Doubles;
 
-constexpr int kLanes = sse2::LaneTraits<Doubles>::kWidth;
+constexpr int kLanes = math::LaneTraits<Doubles>::kWidth;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
 Matrix8 randomMatrix(Random& random) {
@@ -41,7 +39,7 @@ TEST(Elimination, GivesTheDeterminantOfEveryLane) {
       expected[lane] = matrix.determinant();
       setLane(matrix, lane, m);
     }
-    const Doubles determinant = sse2::eliminate(m);
+    const Doubles determinant = math::eliminate(m);
     for (int lane = 0; lane < kLanes; ++lane) EXPECT_NEAR(determinant[lane], expected[lane], 1e-12) << "instance " << i;
   }
 }
@@ -56,9 +54,9 @@ TEST(Elimination, FindsTheNullVectorOfASingularMatrix) {
       matrices[lane].col(lane) = matrices[lane].rightCols<6>() * Eigen::Matrix<double, 6, 1>::LinSpaced(-1, 1);
       setLane(matrices[lane], lane, m);
     }
-    sse2::eliminate(m);
+    math::eliminate(m);
     Doubles v[8];
-    sse2::nullVector(m, v);
+    math::nullVector(m, v);
     for (int lane = 0; lane < kLanes; ++lane) {
       Eigen::Matrix<double, 8, 1> vector;
       for (int k = 0; k < 8; ++k) vector[k] = v[k][lane];
@@ -75,7 +73,7 @@ TEST(Elimination, OfAMatrixWithAZeroColumnIsFinite) {
     matrix.col(lane).setZero();
     setLane(matrix, lane, m);
   }
-  const Doubles determinant = sse2::eliminate(m);
+  const Doubles determinant = math::eliminate(m);
   for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(determinant[lane], 0);
 }
 

@@ -35,7 +35,7 @@ TEST(H32fKernel, EveryInstructionSetFindsTheSameSolutions) {
         poses.resize(static_cast<std::size_t>(count));
         return poses;
       };
-      const FocalPoses expected = solve(SimdLevel::Sse2), poses = solve(level);
+      const FocalPoses expected = solve(SimdLevel::Baseline), poses = solve(level);
       ASSERT_EQ(poses.size(), expected.size()) << math::toString(level) << ", problem " << i;
       for (const FocalPose& pose : expected) EXPECT_TRUE(hasFocalPoseNear(poses, pose, 1e-6)) << "problem " << i;
     }
@@ -61,7 +61,7 @@ TEST(H32fKernel, PiecesAreTheSampledFunction) {
       largest = std::max(largest, std::abs(samples[k]));
     }
     PieceCoefficients pieces;
-    kernel(SimdLevel::Sse2).bernsteinCoefficients(tables, samples, pieces);
+    kernel(SimdLevel::Baseline).bernsteinCoefficients(tables, samples, pieces);
     for (int j = 0; j < kPieces; ++j) {
       const double x = random.uniform(), e = tables.breakpoints[j] + x * (tables.breakpoints[j + 1] - tables.breakpoints[j]);
       double positive = 0, negative = 0;

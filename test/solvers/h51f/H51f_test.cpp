@@ -44,7 +44,7 @@ void expectValid(const MinimalProblem& problem, const FocalPoses& solutions) {
 
 std::vector<SimdLevel> supportedLevels() {
   std::vector<SimdLevel> levels;
-  for (SimdLevel level : {SimdLevel::Sse2, SimdLevel::Avx2, SimdLevel::Avx512})
+  for (SimdLevel level : {SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512})
     if (level <= math::supportedSimdLevel()) levels.push_back(level);
   return levels;
 }

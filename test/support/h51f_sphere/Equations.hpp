@@ -30,7 +30,7 @@ namespace hybridgv {
 namespace test {
 namespace h51f_sphere {
 
-using namespace HYBRIDGV_INSTRUCTION_SET;
+using namespace math;
 
 constexpr int kRays = 5;
 

@@ -7,25 +7,13 @@
 #include "solvers/h32f/Kernel.hpp"
 
 namespace hybridgv {
+namespace solvers {
+namespace h32f {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-using solvers::h32f::Candidates;
-using solvers::h32f::Forms;
-using solvers::h32f::kDegree;
-using solvers::h32f::kHalf;
-using solvers::h32f::kPieces;
-using solvers::h32f::PieceCoefficients;
-using solvers::h32f::PowerForms;
-using solvers::h32f::SampleTables;
+using namespace math;
 
 constexpr int kWidth = LaneTraits<Doubles>::kWidth;
-
-HYBRIDGV_INLINE Doubles load(const double* from) {
-  Doubles result;
-  __builtin_memcpy(&result, from, sizeof result);
-  return result;
-}
-HYBRIDGV_INLINE void store(double* to, Doubles value) { __builtin_memcpy(to, &value, sizeof value); }
 
 // The 8x8 matrix at e. In tau = tan(psi / 2) the equations are K + s A + 2 s B tau + (K - s A) tau^2 = 0, s = sqrt(1 - e^2).
 HYBRIDGV_INLINE void dixonMatrixAt(const Forms& f, Doubles e, Doubles (&m)[8][8]) {
@@ -49,7 +37,7 @@ HYBRIDGV_INLINE void dixonMatrixAt(const Forms& f, Doubles e, Doubles (&m)[8][8]
 static void determinants(const Forms& forms, const double* e, int count, double* determinant) {
   for (int i = 0; i < count; i += kWidth) {
     Doubles m[8][8];
-    dixonMatrixAt(forms, load(e + i), m);
+    dixonMatrixAt(forms, load<Doubles>(e + i), m);
     store(determinant + i, eliminate(m));
   }
 }
@@ -64,17 +52,17 @@ static void bernsteinCoefficients(const SampleTables& tables, const double* samp
     for (int j = 0; j < kPieces; j += kWidth) {
       Doubles even{}, odd{};
       for (int k = 0; k < kHalf; ++k) {
-        even += sum[k] * load(&tables.even[i][k][j]);
-        odd += difference[k] * load(&tables.odd[i][k][j]);
+        even += sum[k] * load<Doubles>(&tables.even[i][k][j]);
+        odd += difference[k] * load<Doubles>(&tables.odd[i][k][j]);
       }
       store(&pieces.b[0][i][j], even + odd);
       store(&pieces.b[1][i][j], even - odd);
     }
   for (int side = 0; side < 2; ++side)
     for (int j = 0; j < kPieces; j += kWidth) {
-      Doubles low = load(&pieces.b[side][0][j]), high = low;
+      Doubles low = load<Doubles>(&pieces.b[side][0][j]), high = low;
       for (int i = 1; i <= kDegree; ++i) {
-        const Doubles b = load(&pieces.b[side][i][j]);
+        const Doubles b = load<Doubles>(&pieces.b[side][i][j]);
         low = smaller(b, low), high = larger(b, high);
       }
       store(&pieces.low[side][j], low);
@@ -85,19 +73,19 @@ static void bernsteinCoefficients(const SampleTables& tables, const double* samp
 // Newton's method, kept inside the bracket [0, 1] that shrinks around the only root.
 static void simpleRoots(const PowerForms& forms, int count, double* roots) {
   for (int j = 0; j < count; j += kWidth) {
-    Doubles t = load(roots + j), low{}, high = broadcast<Doubles>(1);
+    Doubles t = load<Doubles>(roots + j), low{}, high = broadcast<Doubles>(1);
     Doubles atOne{};
-    for (int i = 0; i <= kDegree; ++i) atOne += load(&forms.c[i][j]);
+    for (int i = 0; i <= kDegree; ++i) atOne += load<Doubles>(&forms.c[i][j]);
     for (int iteration = 0; iteration < 40; ++iteration) {
-      Doubles value = load(&forms.c[kDegree][j]), slope{};
-      for (int i = kDegree - 1; i >= 0; --i) slope = slope * t + value, value = value * t + load(&forms.c[i][j]);
+      Doubles value = load<Doubles>(&forms.c[kDegree][j]), slope{};
+      for (int i = kDegree - 1; i >= 0; --i) slope = slope * t + value, value = value * t + load<Doubles>(&forms.c[i][j]);
       const DoubleMask above = value * atOne > 0;
       high = select<Doubles>(above, t, high), low = select<Doubles>(above, low, t);
       const Doubles next = t - value / slope;
       const Doubles inside = select<Doubles>((next >= low) & (next <= high), next, (low + high) / 2);
       const Doubles step = absolute(inside - t);
       t = inside;
-      if (bits((DoubleMask)(step > 1e-5)) == 0) break;
+      if (!any(step > 1e-5)) break;
     }
     store(roots + j, t);
   }
@@ -108,7 +96,7 @@ static void polishRoots(const Forms& forms, int count, double* roots) {
   constexpr double kFirstStep = 1e-7, kLongestStep = 1e-3, kShortestStep = 1e-15;
   for (int i = 0; i < count; i += kWidth) {
     Doubles m[8][8];
-    Doubles last = load(roots + i);
+    Doubles last = load<Doubles>(roots + i);
     // towards 0, so that |e| < 1
     Doubles e = last * (1 - kFirstStep);
     dixonMatrixAt(forms, last, m);
@@ -122,7 +110,7 @@ static void polishRoots(const Forms& forms, int count, double* roots) {
       step = select<Doubles>(value == lastValue, Doubles{}, smaller(larger(step, -limit), limit));
       last = e, lastValue = value;
       e += step;
-      if (bits((DoubleMask)(absolute(step) > kShortestStep)) == 0) break;
+      if (!any(absolute(step) > kShortestStep)) break;
     }
     store(roots + i, e);
   }
@@ -130,7 +118,7 @@ static void polishRoots(const Forms& forms, int count, double* roots) {
 
 static void nullVectors(const Forms& forms, int count, Candidates& candidates) {
   for (int i = 0; i < count; i += kWidth) {
-    const Doubles e = load(candidates.e + i);
+    const Doubles e = load<Doubles>(candidates.e + i);
     Doubles m[8][8], v[8];
     dixonMatrixAt(forms, e, m);
     eliminate(m);
@@ -175,12 +163,12 @@ HYBRIDGV_INLINE Derivatives evaluateK(const double (&k)[3][3][3], int j, Doubles
 static void newton(const Forms& forms, int count, Candidates& candidates) {
   constexpr double kLongestStep = 0.3, kConverged = 1e-9;
   for (int i = 0; i < count; i += kWidth) {
-    Doubles e = load(candidates.e + i), d = load(candidates.d + i);
-    Doubles c = load(candidates.cosPsi + i), s = load(candidates.sinPsi + i);
+    Doubles e = load<Doubles>(candidates.e + i), d = load<Doubles>(candidates.d + i);
+    Doubles c = load<Doubles>(candidates.cosPsi + i), s = load<Doubles>(candidates.sinPsi + i);
     Doubles size = broadcast<Doubles>(1);
     for (int iteration = 0; iteration < 12; ++iteration) {
       const Doubles w = (1 - e) * (1 + e), root = squareRoot(w), rootByE = -e / root;
-      Vector3<Doubles> value, byE, byD, byPsi;
+      Vec3<Doubles> value, byE, byD, byPsi;
       const auto ray = [&](int j, Doubles& f, Doubles& fe, Doubles& fd, Doubles& fpsi) {
         const Derivatives a = evaluate(forms.a, j, e, d), b = evaluate(forms.b, j, e, d), k = evaluateK(forms.k, j, e, w, d);
         const Doubles along = a.value * c + b.value * s;
@@ -193,7 +181,7 @@ static void newton(const Forms& forms, int count, Candidates& candidates) {
       ray(1, value.y, byE.y, byD.y, byPsi.y);
       ray(2, value.z, byE.z, byD.z, byPsi.z);
       // Cramer's rule for value + byE de + byD dd + byPsi dpsi = 0.
-      const Vector3<Doubles> n = cross(byD, byPsi), q = cross(value, byE);
+      const Vec3<Doubles> n = cross(byD, byPsi), q = cross(value, byE);
       const Doubles scale = -boundedReciprocal(dot(byE, n), 1e-300);
       Doubles de = dot(value, n) * scale, dd = -dot(byPsi, q) * scale, dpsi = dot(byD, q) * scale;
       const Doubles depth = 1 + absolute(d);
@@ -207,7 +195,7 @@ static void newton(const Forms& forms, int count, Candidates& candidates) {
       const Doubles turnedC = c - s * dpsi, turnedS = s + c * dpsi;
       const Doubles length = 1 / squareRoot(turnedC * turnedC + turnedS * turnedS);
       c = turnedC * length, s = turnedS * length;
-      if (bits((DoubleMask)(size > kConverged)) == 0) break;
+      if (!any(size > kConverged)) break;
     }
     store(candidates.e + i, e), store(candidates.d + i, d);
     store(candidates.cosPsi + i, c), store(candidates.sinPsi + i, s);
@@ -215,9 +203,10 @@ static void newton(const Forms& forms, int count, Candidates& candidates) {
   }
 }
 
-extern const solvers::h32f::Kernel kH32fKernel;
-const solvers::h32f::Kernel kH32fKernel = {&determinants, &bernsteinCoefficients, &simpleRoots,
-                                           &polishRoots,  &nullVectors,           &newton};
+extern const Kernel kKernel;
+const Kernel kKernel = {&determinants, &bernsteinCoefficients, &simpleRoots, &polishRoots, &nullVectors, &newton};
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace h32f
+}  // namespace solvers
 }  // namespace hybridgv

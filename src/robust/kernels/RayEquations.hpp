@@ -1,0 +1,55 @@
+// The normal equations of 2D-2D correspondences.
+#pragma once
+
+#include "robust/kernels/Losses.hpp"
+#include "robust/kernels/Ranges.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace HYBRIDGV_INSTRUCTION_SET {
+
+// J^T W J and J^T W e of errors with any derivatives.
+class NormalEquationsSum {
+ public:
+  void add(const Row& derivatives, Doubles error, Doubles weight) {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      const Doubles weighted = weight * derivatives[row];
+      gradient_[row] += weighted * error;
+      for (int column = row; column < kParameters; ++column, ++k) hessian_[k] += weighted * derivatives[column];
+    }
+  }
+  void addTo(NormalEquations& total) const {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
+      total.gradient[row] += sum(gradient_[row]);
+      for (int column = row; column < kParameters; ++column, ++k) total.hessian[row][column] += sum(hessian_[k]);
+    }
+  }
+
+ private:
+  Doubles gradient_[kParameters] = {}, hessian_[kTriangle] = {};
+};
+
+static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
+  if (rays.size == 0) return;
+  const Pose pose(plainPose);
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  CostSum cost(loss);
+  NormalEquationsSum sums;
+  forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) {
+    const Epipolar ray(rays, i, pose, unknownPixel);
+    const Doubles squaredError = ray.squaredError();
+    const DoubleMask valid = isValid(ray, squaredError, loss);
+    const Doubles weight = cost.weigh(inRange, valid, squaredError, rays.narrowing ? rays.narrowing + i : nullptr);
+    if (!any(weight > 0)) return;
+    const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
+    Row derivatives;
+    differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
+    sums.add(derivatives, ray.constraint, weight / variance);
+  });
+  total.cost += cost.total();
+  sums.addTo(total);
+}
+
+}  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace robust
+}  // namespace hybridgv

@@ -1,0 +1,74 @@
+// Errors of all correspondences, and the scores made of them.
+#pragma once
+
+#include "robust/kernels/Epipolar.hpp"
+#include "robust/kernels/Ranges.hpp"
+#include "robust/kernels/Reprojection.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace HYBRIDGV_INSTRUCTION_SET {
+
+static void squaredPointErrors(const PointArrays& points, const PlainPose& plainPose, double* errors) {
+  const Pose pose(plainPose);
+  for (std::size_t i = 0; i < points.size; i += kWidth) {
+    const Reprojection point(points, i, pose);
+    const DoubleMask valid = point.inFront & (point.squaredError < kInfinity);
+    const Doubles squared = select<Doubles>(valid, point.squaredError, broadcast<Doubles>(kInfinity));
+    store(errors + i, squared);
+  }
+}
+
+static void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
+  const Pose pose(plainPose);
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Epipolar ray(rays, i, pose, unknownPixel);
+    const Doubles error = ray.squaredError();
+    const Doubles squared = select<Doubles>(ray.inFront() & (error < kInfinity), error, broadcast<Doubles>(kInfinity));
+    store(errors + i, squared);
+  }
+}
+
+// Sums up what is below the threshold; comparisons with NaN are false.
+class ScoreSum {
+ public:
+  explicit ScoreSum(double squaredThreshold)
+      : threshold_(broadcast<Doubles>(squaredThreshold)), perSquare_(broadcast<Doubles>(1 / squaredThreshold)) {}
+  void add(DoubleMask valid, Doubles squaredError) {
+    const DoubleMask inlier = valid & (squaredError < threshold_);
+    gain_ += select<Doubles>(inlier, 1.0 - squaredError * perSquare_, Doubles{});
+    inliers_ += select<Doubles>(inlier, broadcast<Doubles>(1), Doubles{});
+  }
+  Score score() const { return {sum(gain_), static_cast<int>(sum(inliers_))}; }
+
+ private:
+  Doubles threshold_, perSquare_, gain_{}, inliers_{};
+};
+
+static Score scorePoints(const PointArrays& points, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
+                         std::size_t end) {
+  const Pose pose(plainPose);
+  ScoreSum result(squaredThreshold);
+  forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
+    const Reprojection point(points, i, pose);
+    result.add(point.inFront & inRange, point.squaredError);
+  });
+  return result.score();
+}
+
+static Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
+                       std::size_t end) {
+  const Pose pose(plainPose);
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  ScoreSum result(squaredThreshold);
+  forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
+    const Epipolar ray(rays, i, pose, unknownPixel);
+    result.add(ray.inFront() & inRange, ray.squaredError());
+  });
+  return result.score();
+}
+
+}  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace robust
+}  // namespace hybridgv

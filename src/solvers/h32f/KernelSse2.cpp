@@ -1,2 +1,0 @@
-#define HYBRIDGV_INSTRUCTION_SET sse2
-#include "solvers/h32f/KernelBody.hpp"

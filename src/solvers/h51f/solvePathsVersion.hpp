@@ -1,0 +1,23 @@
+// solvePaths for the instruction set of the including file.
+#pragma once
+
+#include "solvers/h51f/PathProblem.hpp"
+#include "solvers/h51f/solvePaths.hpp"
+
+namespace hybridgv {
+namespace solvers {
+namespace h51f {
+namespace HYBRIDGV_INSTRUCTION_SET {
+
+static void solvePaths(const StartSystem& start, const Parameters& target, EndPoints* ends) {
+  using Solver = hybridgv::HYBRIDGV_INSTRUCTION_SET::PathSolver<hybridgv::HYBRIDGV_INSTRUCTION_SET::H51fPathProblem>;
+  Solver({start, target}).solve(ends);
+}
+
+extern const SolvePaths kSolvePaths;
+const SolvePaths kSolvePaths = &solvePaths;
+
+}  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace h51f
+}  // namespace solvers
+}  // namespace hybridgv
