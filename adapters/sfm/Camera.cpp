@@ -4,7 +4,6 @@
 
 #include "CameraModels.hpp"
 #include "CheckArguments.hpp"
-#include "hybridgv/detail/format.hpp"
 #include "lens/Lens.hpp"
 
 namespace hybridgv {
@@ -24,8 +23,7 @@ Lens checkedPlaneLens(const Camera& camera) {
 }
 
 void checkPixel(double x, double y) {
-  if (!std::isfinite(x) || !std::isfinite(y))
-    throwInvalid("(x, y)", "must be finite, is (" + detail::format(x) + ", " + detail::format(y) + ")");
+  if (!std::isfinite(x) || !std::isfinite(y)) throwInvalid("(x, y)", "not finite");
 }
 
 std::optional<Eigen::Vector3d> homogeneous(const std::optional<Eigen::Vector2d>& point, double scale) {
@@ -48,7 +46,7 @@ std::optional<Eigen::Vector3d> bearingVector(const Camera& camera, double x, dou
 
 std::optional<Eigen::Vector3d> project(const Camera& camera, const Eigen::Vector3d& point) {
   const Lens lens = checkedLens(camera);
-  checkFinite("point", point);
+  if (!point.allFinite()) throwInvalid("point", "not finite");
   return homogeneous(lens.project(point), 1);
 }
 
@@ -60,8 +58,7 @@ std::optional<Eigen::Vector3d> undistort(const Camera& camera, double x, double 
 
 std::optional<Eigen::Vector3d> distort(const Camera& camera, const Eigen::Vector3d& imagePoint) {
   const Lens lens = checkedPlaneLens(camera);
-  if (!imagePoint.allFinite() || imagePoint[2] == 0)
-    throwInvalid("imagePoint", "must be finite, (u, v, 1), is " + detail::format(imagePoint));
+  if (!imagePoint.allFinite() || imagePoint[2] == 0) throwInvalid("imagePoint", "must be finite (u, v, 1)");
   const double f = lens.focalLength();
   return homogeneous(lens.projectPlane({imagePoint[0] / imagePoint[2] / f, imagePoint[1] / imagePoint[2] / f}), 1);
 }

@@ -5,6 +5,7 @@
 
 #include "FileContents.hpp"
 #include "Printable.hpp"
+#include "doubleFromChars.hpp"
 #include "hybridgv/adapters/sfm/FileError.hpp"
 
 namespace hybridgv {
@@ -44,7 +45,7 @@ double TextScanner::number(const char* what) {
   const char* end = text.data() + text.size();
   if (*begin == '+') ++begin;
   double value = 0;
-  const auto result = std::from_chars(begin, end, value);
+  const auto result = doubleFromChars(begin, end, value);
   if (result.ec == std::errc::result_out_of_range) failWord(what, text, "out of range");
   if (result.ec != std::errc() || result.ptr != end) failWord(what, text, "not a number");
   if (!std::isfinite(value)) failWord(what, text, "not finite");

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "robust/kernels/Leverages.hpp"
-#include "robust/kernels/Pinhole.hpp"
 #include "robust/kernels/PointEquations.hpp"
 #include "robust/kernels/RayEquations.hpp"
 #include "robust/kernels/Scores.hpp"
@@ -11,14 +10,8 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-template <class Camera>
-constexpr Kernels makeKernels() {
-  return {&squaredPointErrors<Camera>, &squaredRayErrors<Camera>, &scorePoints<Camera>, &scoreRays<Camera>,
-          &addPoints<Camera>,          &addRays<Camera>,          &rayLeverages<Camera>};
-}
-
 extern const Kernels kKernels;
-const Kernels kKernels = makeKernels<Pinhole>();
+const Kernels kKernels = {&squaredPointErrors, &squaredRayErrors, &scorePoints, &scoreRays, &addPoints, &addRays, &rayLeverages};
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust

@@ -1,7 +1,6 @@
-// The normal equations of 2D-2D correspondences, for any camera model (Pinhole.hpp).
+// The normal equations of 2D-2D correspondences.
 #pragma once
 
-#include "robust/kernels/Epipolar.hpp"
 #include "robust/kernels/Losses.hpp"
 #include "robust/kernels/Ranges.hpp"
 
@@ -10,42 +9,40 @@ namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
 // J^T W J and J^T W e of errors with any derivatives.
-template <int N>
 class NormalEquationsSum {
  public:
-  void add(const Doubles (&derivatives)[N], Doubles error, Doubles weight) {
-    for (int row = 0, k = 0; row < N; ++row) {
+  void add(const Row& derivatives, Doubles error, Doubles weight) {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
       const Doubles weighted = weight * derivatives[row];
       gradient_[row] += weighted * error;
-      for (int column = row; column < N; ++column, ++k) hessian_[k] += weighted * derivatives[column];
+      for (int column = row; column < kParameters; ++column, ++k) hessian_[k] += weighted * derivatives[column];
     }
   }
   void addTo(NormalEquations& total) const {
-    for (int row = 0, k = 0; row < N; ++row) {
+    for (int row = 0, k = 0; row < kParameters; ++row) {
       total.gradient[row] += sum(gradient_[row]);
-      for (int column = row; column < N; ++column, ++k) total.hessian[row][column] += sum(hessian_[k]);
+      for (int column = row; column < kParameters; ++column, ++k) total.hessian[row][column] += sum(hessian_[k]);
     }
   }
 
  private:
-  Doubles gradient_[N] = {}, hessian_[N * (N + 1) / 2] = {};
+  Doubles gradient_[kParameters] = {}, hessian_[kTriangle] = {};
 };
 
-template <class Camera>
 static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (rays.size == 0) return;
   const Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
   CostSum cost(loss);
-  NormalEquationsSum<Camera::kParameters> sums;
+  NormalEquationsSum sums;
   forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) {
-    const typename Camera::Ray ray(rays, i, pose, unknownPixel);
+    const Epipolar ray(rays, i, pose, unknownPixel);
     const Doubles squaredError = ray.squaredError();
     const DoubleMask valid = isValid(ray, squaredError, loss);
     const Doubles weight = cost.weigh(inRange, valid, squaredError, rays.narrowing ? rays.narrowing + i : nullptr);
     if (!any(weight > 0)) return;
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
-    Row<Camera::kParameters> derivatives;
+    Row derivatives;
     differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
     sums.add(derivatives, ray.constraint, weight / variance);
   });

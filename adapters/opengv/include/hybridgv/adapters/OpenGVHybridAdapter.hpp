@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "hybridgv/detail/format.hpp"
 #include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
 
 namespace hybridgv {
@@ -80,7 +79,7 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
   OpenGVHybridAdapter(const RelativeAdapter* relative, const AbsoluteAdapter* absolute, double nominalFocalLength)
       : relative_(relative), absolute_(absolute), nominalFocalLength_(nominalFocalLength) {
     if (!(nominalFocalLength > 0) || !std::isfinite(nominalFocalLength))
-      throwInvalid("nominalFocalLength", "must be positive and finite, is " + detail::format(nominalFocalLength));
+      throwInvalid("nominalFocalLength", "must be positive and finite, is " + std::to_string(nominalFocalLength));
     if (relative_) readRelative();
     if (absolute_) checkAbsolute();
   }
@@ -111,16 +110,16 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
 
   static void checkQueryBearing(const char* name, std::size_t index, const Eigen::Vector3d& bearing) {
     if (!bearing.allFinite() || !(bearing[2] > 0))
-      throwInvalid(element(name, index), "must be finite and point forward (z > 0), is " + detail::format(bearing));
+      throwInvalid(element(name, index), "must be finite and point forward (z > 0), is (" + std::to_string(bearing[0]) + ", " +
+                                             std::to_string(bearing[1]) + ", " + std::to_string(bearing[2]) + ")");
   }
 
   static void checkQueryCamera(const char* offsetName, const char* rotationName, std::size_t index, const Eigen::Vector3d& offset,
                                const Eigen::Matrix3d& rotation) {
     constexpr double kTolerance = 1e-12;
-    const std::string reason = "the query camera must be in the origin of its viewpoint (zero offset, identity rotation), is ";
-    if (!offset.isZero(kTolerance)) throwInvalid(element(offsetName, index), reason + "at " + detail::format(offset));
-    if (!rotation.isIdentity(kTolerance))
-      throwInvalid(element(rotationName, index), reason + "turned by " + detail::format(rotation));
+    const char* reason = "the query camera must be in the origin of its viewpoint (zero offset, identity rotation)";
+    if (!offset.isZero(kTolerance)) throwInvalid(element(offsetName, index), reason);
+    if (!rotation.isIdentity(kTolerance)) throwInvalid(element(rotationName, index), reason);
   }
 
   static std::string element(const char* name, std::size_t index) {
@@ -128,7 +127,7 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
   }
 
   [[noreturn]] static void throwInvalid(const std::string& argument, const std::string& reason) {
-    throw std::invalid_argument("hybridgv: " + argument + ": " + reason);
+    throw std::invalid_argument("hybridgv::OpenGVHybridAdapter: " + argument + ": " + reason);
   }
 
   Eigen::Vector3d imagePoint(const Eigen::Vector3d& bearing) const {
