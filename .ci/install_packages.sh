@@ -1,6 +1,14 @@
 #!/bin/sh
-# usage: install_packages.sh PACKAGE...   installs the Debian packages that are missing, as root or with sudo; silent if none is
+# usage: install_packages.sh JOB ...   installs the Debian packages of these jobs (debian_packages.txt) that are missing, as root or
+# with sudo; silent if none is
 set -e
+list=$(dirname "$0")/debian_packages.txt
+packages=
+for job; do
+  line=$(grep "^$job " "$list") || { echo "$list has no line $job" >&2; exit 1; }
+  packages="$packages ${line#"$job"}"
+done
+set -- $packages
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system; this is needed: $*" >&2
   exit 0

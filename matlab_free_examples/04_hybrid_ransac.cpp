@@ -33,15 +33,19 @@ int main() {
       points.push_back(point + 0.02 * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
     }
   }
-  const hybridgv::NoncentralHybridAdapter adapter(imagePoints2d2d, bearings, cameras, offsets,
-                                                  {Matrix3d::Identity(), Matrix3d::Identity()}, imagePoints2d3d, points);
+  hybridgv::NoncentralHybridAdapter adapter(imagePoints2d2d, bearings, cameras, offsets,
+                                            {Matrix3d::Identity(), Matrix3d::Identity()}, imagePoints2d3d, points);
 
   // [readme]
+  adapter.setRigFocalLengths({1000, 1000});  // where known: the errors of the map's own image points are counted too
   hybridgv::sac::HybridRansacOptions options;
   options.maxReprojectionErrorPx = 8;  // 2D-3D matches
   options.maxEpipolarErrorPx = 2;      // 2D-2D matches
   const hybridgv::sac::HybridRansacResult result = hybridgv::sac::hybridRansac(adapter, options);
-  if (!result.success) return std::printf("not localized: %s\n", toString(result.failureReason)), 1;
+  if (!result.success) {
+    std::printf("not localized: %s\n", toString(result.failureReason));
+    return 1;
+  }
   std::printf("focal length %.1f +- %.1f px, %d + %d inliers\n", result.pose.focalLength, result.focalLengthStandardDeviation,
               result.numberInliers2d2d, result.numberInliers2d3d);
   // [readme]

@@ -18,10 +18,13 @@ int main(int argc, char** argv) try {
       std::printf("%-20s not localized: %s\n", problem.imageName.c_str(), toString(result.failureReason));
       continue;
     }
-    std::printf("%-20s focal length %8.2f px (the map says %8.2f), %3d 2D-2D and %3d 2D-3D inliers\n", problem.imageName.c_str(),
+    std::printf("%-20s focal length %8.2f px (the map says %8.2f), %3d 2D-2D and %3d 2D-3D inliers", problem.imageName.c_str(),
                 result.pose.focalLength, problem.reference->focalLength, result.numberInliers2d2d, result.numberInliers2d3d);
+    const hybridgv::CamFromWorld query = result.pose.camFromWorld();  // the pair that COLMAP's images.txt holds
+    std::printf(", translation %.3f %.3f %.3f\n", query.translation[0], query.translation[1], query.translation[2]);
   }
   return 0;
 } catch (const std::exception& error) {
-  return std::fprintf(stderr, "%s\n", error.what()), 1;
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

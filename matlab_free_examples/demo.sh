@@ -3,7 +3,7 @@
 # built-in map, or of the model given. All arguments go to the program: sh matlab_free_examples/demo.sh --help
 set -e
 root=$(cd "$(dirname "$0")/.." && pwd)
-sh "$root/.ci/install_packages.sh" g++ cmake ninja-build libeigen3-dev libopengv-dev libcli11-dev nlohmann-json3-dev
+sh "$root/.ci/install_packages.sh" build examples
 {
   cmake -S "$root" -B "$root/build/demo" -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF
   cmake --build "$root/build/demo" --target localize

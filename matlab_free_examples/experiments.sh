@@ -4,7 +4,7 @@
 # The full size takes some minutes; --quick some seconds. Each program explains itself: build/demo/matlab_free_examples/experiments/NAME --help
 set -e
 root=$(cd "$(dirname "$0")/.." && pwd)
-sh "$root/.ci/install_packages.sh" g++ cmake ninja-build libeigen3-dev libopengv-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
+sh "$root/.ci/install_packages.sh" build examples pictures
 programs="solver_table synthetic_experiments compare_opengv rig_query localization_table"
 cmake -S "$root" -B "$root/build/demo" -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF
 cmake --build "$root/build/demo" --target $programs

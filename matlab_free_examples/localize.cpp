@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -47,6 +48,40 @@ std::string solverNames() {
   return names;
 }
 
+// Adds an option whose value must be a number for which `holds`. Otherwise the message names the option, what it `must` be and what
+// was given.
+template <class Number>
+void addNumber(CLI::App& app, const char* name, Number& value, const char* help, const char* must, bool (*holds)(Number)) {
+  const auto check = [must, holds](const std::string& given) {
+    Number number{};
+    const bool isNumber = CLI::detail::lexical_cast(given, number);
+    return isNumber && holds(number) ? std::string() : "must be " + std::string(must) + ", is " + given;
+  };
+  app.add_option(name, value, help)->check(check)->capture_default_str();
+}
+
+bool isPositive(double value) { return value > 0 && std::isfinite(value); }
+bool isNotNegative(double value) { return value >= 0 && std::isfinite(value); }
+bool isShare(double value) { return value >= 0 && value <= 1; }
+bool isProbability(double value) { return value > 0 && value < 1; }
+bool isCount(int value) { return value > 0; }
+bool isThreads(int value) { return value >= 0; }
+
+// (CLI11 takes "-1" and numbers beyond 64 bits for other numbers.)
+std::string checkSeed(const std::string& given) {
+  std::uint64_t seed = 0;
+  const char* const end = given.data() + given.size();
+  const auto result = std::from_chars(given.data(), end, seed);
+  return result.ec == std::errc() && result.ptr == end ? std::string() : "must be an integer from 0 to 2^64 - 1, is " + given;
+}
+
+std::string checkSolver(const std::string& name) {
+  const std::vector<hybridgv::Solver> solvers = hybridgv::allSolvers();
+  const auto isNamed = [&](hybridgv::Solver solver) { return name == hybridgv::toString(solver); };
+  const bool isKnown = name == "all" || std::any_of(solvers.begin(), solvers.end(), isNamed);
+  return isKnown ? std::string() : "unknown name \"" + name + "\", valid are " + solverNames();
+}
+
 // Fills `arguments`; returns the exit code if the program is to stop here (help, wrong usage), -1 otherwise.
 int parse(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
@@ -58,20 +93,20 @@ int parse(int argc, char** argv, Arguments& arguments) {
   app.add_option("-q,--query", arguments.queries, "names or indices of the query images (default: every image in turn)");
   app.add_flag("--stdin", arguments.readStandardInput,
                "read query names (if a map is given) or problem files from standard input, one a line");
-  app.add_option("-s,--solver", arguments.solver, "minimal solver: " + solverNames())->capture_default_str();
-  app.add_option("--max-reprojection-error", arguments.ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]")
-      ->capture_default_str();
-  app.add_option("--max-epipolar-error", arguments.ransac.maxEpipolarErrorPx,
-                 "inlier threshold of 2D-2D matches, Sampson error [px]")
-      ->capture_default_str();
-  app.add_option("--min-parallax", arguments.matches.minParallaxDeg,
-                 "smaller parallax of the map's rays makes a match 2D-2D [deg]")
-      ->capture_default_str();
-  app.add_option("--outliers", arguments.outlierShare, "share of the matches to pair wrongly, 0 .. 1")->capture_default_str();
-  app.add_option("--seed", arguments.ransac.seed, "seed of everything random")->capture_default_str();
-  app.add_option("--threads", arguments.ransac.threads, "threads per query, 0 = all cores")->capture_default_str();
-  app.add_option("--max-iterations", arguments.ransac.maxIterations, "largest number of samples")->capture_default_str();
-  app.add_option("--success-probability", arguments.ransac.successProbability, "when to stop sampling")->capture_default_str();
+  app.add_option("-s,--solver", arguments.solver, "minimal solver: " + solverNames())->check(checkSolver)->capture_default_str();
+  HybridRansacOptions& ransac = arguments.ransac;
+  addNumber(app, "--max-reprojection-error", ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]",
+            "positive and finite", isPositive);
+  addNumber(app, "--max-epipolar-error", ransac.maxEpipolarErrorPx, "inlier threshold of 2D-2D matches, Sampson error [px]",
+            "positive and finite", isPositive);
+  addNumber(app, "--min-parallax", arguments.matches.minParallaxDeg,
+            "smaller parallax of the map's rays makes a match 2D-2D [deg]", "finite and not negative", isNotNegative);
+  addNumber(app, "--outliers", arguments.outlierShare, "share of the matches to pair wrongly, 0 .. 1", "from 0 to 1", isShare);
+  app.add_option("--seed", ransac.seed, "seed of everything random")->check(checkSeed)->capture_default_str();
+  addNumber(app, "--threads", ransac.threads, "threads per query, 0 = all cores", "0 (all cores) or a positive integer",
+            isThreads);
+  addNumber(app, "--max-iterations", ransac.maxIterations, "largest number of samples", "a positive integer", isCount);
+  addNumber(app, "--success-probability", ransac.successProbability, "when to stop sampling", "between 0 and 1", isProbability);
   app.add_flag("--json", arguments.json, "one JSON object per query and line instead of the table");
   app.add_flag("--quiet", arguments.quiet, "no progress bar");
   try {
@@ -96,26 +131,52 @@ bool isMap(const std::string& path) {
   return start.compare(0, 6, "NVM_V3") == 0 || start == "# Bundle file";
 }
 
+// In quotation marks, with control characters as \xHH, so that one sees them.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    char code[8];
+    std::snprintf(code, sizeof code, "\\x%02x", static_cast<unsigned char>(c));
+    const bool isControl = (c >= 0 && c < ' ') || c == 127;
+    result += isControl ? std::string(code) : std::string(1, c);
+  }
+  return result + "\"";
+}
+
+// Without the blanks around it and the carriage return of Windows' text files.
+std::string trimmed(const std::string& line) {
+  constexpr const char* kBlanks = " \t\r";
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return {};
+  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+}
+
 std::vector<std::string> readLines(std::istream& in) {
   std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);)
+  for (std::string line; std::getline(in, line);) {
+    line = trimmed(line);
     if (!line.empty()) lines.push_back(line);
+  }
   return lines;
 }
 
-std::size_t findImage(const hybridgv::sfm::SparseModel& map, const std::string& name) {
+// All images of this name, of which a map may have several; if there is none, the one whose index it is.
+std::vector<std::size_t> findImages(const hybridgv::sfm::SparseModel& map, const std::string& name) {
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < map.images.size(); ++i)
-    if (map.images[i].name == name) return i;
+    if (map.images[i].name == name) found.push_back(i);
+  if (!found.empty()) return found;
   std::size_t index = 0;
   const bool isNumber = CLI::detail::lexical_cast(name, index);
-  if (isNumber && index < map.images.size()) return index;
-  throw std::invalid_argument("no image of the map is called \"" + name + "\"");
+  if (isNumber && index < map.images.size()) return {index};
+  throw std::invalid_argument("no image of the map is called " + quoted(name));
 }
 
 std::vector<Query> queriesOfMap(const std::string& path, const Arguments& arguments, const std::vector<std::string>& names) {
   const auto map = std::make_shared<const hybridgv::sfm::SparseModel>(hybridgv::sfm::readModel(path));
   std::vector<std::size_t> images;
-  for (const std::string& name : names) images.push_back(findImage(*map, name));
+  for (const std::string& name : names)
+    for (const std::size_t image : findImages(*map, name)) images.push_back(image);
   if (names.empty())
     for (std::size_t i = 0; i < map->images.size(); ++i)
       if (map->images[i].registered) images.push_back(i);
@@ -127,14 +188,17 @@ std::vector<Query> queriesOfMap(const std::string& path, const Arguments& argume
 
 std::vector<Query> collectQueries(const Arguments& arguments) {
   std::vector<std::string> names = arguments.queries, files;
-  bool hasMap = false;
-  for (const std::string& input : arguments.inputs) (isMap(input) ? hasMap = true, void() : files.push_back(input));
+  std::vector<std::string> maps;
+  for (const std::string& input : arguments.inputs) (isMap(input) ? maps : files).push_back(input);
   if (arguments.readStandardInput)
-    for (const std::string& line : readLines(std::cin)) (hasMap ? names : files).push_back(line);
+    for (const std::string& line : readLines(std::cin)) (maps.empty() ? files : names).push_back(line);
+  if (maps.empty() && !arguments.queries.empty()) throw std::invalid_argument("--query: there is no map to look for images in");
+  for (const std::string& file : files)
+    if (maps.empty() && !std::filesystem::exists(file))
+      throw std::invalid_argument("no file is called " + quoted(file) + "; to localize an image by its name, name its map too");
   std::vector<Query> queries;
-  for (const std::string& input : arguments.inputs)
-    if (isMap(input))
-      for (Query& query : queriesOfMap(input, arguments, names)) queries.push_back(std::move(query));
+  for (const std::string& map : maps)
+    for (Query& query : queriesOfMap(map, arguments, names)) queries.push_back(std::move(query));
   for (const std::string& file : files) queries.emplace_back([file] { return hybridgv::sfm::readProblem(file); });
   return queries;
 }
@@ -178,45 +242,67 @@ Row localizeBothWays(LocalizationProblem problem, const Arguments& arguments) {
 
 // ------------------------------------------------------------------------------------------------------------ output
 
+// What was printed has arrived: results must not be lost in silence on a full disk, nor with a program that is interrupted.
+void flush() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::runtime_error("cannot write to the standard output");
+}
+
+// The table is 100 columns wide.
+constexpr std::size_t kNameWidth = 17;
+
 void printHeader() {
-  std::printf("%-24s %8s | %8s %7s %7s %7s %8s %9s %9s %7s | %-40s\n", "", "", "hybrid", "", "", "", "", "inliers", "inliers", "",
-              "2D-3D matches only (P3.5Pf)");
-  std::printf("%-24s %8s | %8s %7s %7s %7s %8s %9s %9s %7s | %8s %7s %7s %8s %7s\n", "query", "f ref px", "f px", "+- px", "df %",
-              "dR deg", "dpos", "2D-2D", "2D-3D", "ms", "f px", "df %", "dR deg", "dpos", "ms");
+  std::printf("%-17s %7s | %7s %6s %6s %6s %8s %8s %8s | %s\n", "", "", "hybrid", "", "", "", "", "inliers", "inliers",
+              "2D-3D only");
+  std::printf("%-17s %7s | %7s %6s %6s %6s %8s %8s %8s | %7s %6s\n", "query", "f ref", "f px", "+- px", "df %", "dR deg", "dpos",
+              "2D-2D", "2D-3D", "f px", "df %");
+}
+
+// A name that is too long loses its beginning, which is the same for most.
+std::string shortened(const std::string& name) {
+  if (name.size() <= kNameWidth) return name;
+  std::size_t start = name.size() - (kNameWidth - 2);
+  const auto isInsideOfCharacter = [&] { return (static_cast<unsigned char>(name[start]) & 0xC0) == 0x80; };  // of UTF-8
+  while (start < name.size() && isInsideOfCharacter()) ++start;
+  return ".." + name.substr(start);
 }
 
 std::string share(int inliers, std::size_t all) { return std::to_string(inliers) + "/" + std::to_string(all); }
 
 void printErrors(const std::optional<PoseError>& error) {
   if (error)
-    std::printf(" %7.2f %7.3f %8.4f", error->focalPercent, error->rotationDeg, error->position);
+    std::printf(" %6.2f %6.3f %8.4f", error->focalPercent, error->rotationDeg, error->position);
   else
-    std::printf(" %7s %7s %8s", "-", "-", "-");
+    std::printf(" %6s %6s %8s", "-", "-", "-");
 }
 
 void printFocalLength(const HybridRansacResult& result) {
   if (result.success)
-    std::printf(" %8.1f", result.pose.focalLength);
+    std::printf(" %7.1f", result.pose.focalLength);
   else
-    std::printf(" %8s", "failed");
+    std::printf(" %7s", "failed");
 }
 
 void printRow(const Row& row) {
   const HybridRansacResult& hybrid = row.hybrid.result;
   const NoncentralHybridAdapter& adapter = row.problem.adapter;
-  std::printf("%-24s", row.problem.imageName.c_str());
+  std::printf("%-17s", shortened(row.problem.imageName).c_str());
   if (row.problem.reference)
-    std::printf(" %8.1f |", row.problem.reference->focalLength);
+    std::printf(" %7.1f |", row.problem.reference->focalLength);
   else
-    std::printf(" %8s |", "-");
+    std::printf(" %7s |", "-");
   printFocalLength(hybrid);
-  std::printf(" %7.1f", hybrid.focalLengthStandardDeviation);
+  if (hybrid.success)
+    std::printf(" %6.1f", hybrid.focalLengthStandardDeviation);
+  else
+    std::printf(" %6s", "-");
   printErrors(row.hybrid.error);
-  std::printf(" %9s %9s %7.2f |", share(hybrid.numberInliers2d2d, adapter.getNumberCorrespondences2d2d()).c_str(),
-              share(hybrid.numberInliers2d3d, adapter.getNumberCorrespondences2d3d()).c_str(), 1e3 * hybrid.seconds);
+  std::printf(" %8s %8s |", share(hybrid.numberInliers2d2d, adapter.getNumberCorrespondences2d2d()).c_str(),
+              share(hybrid.numberInliers2d3d, adapter.getNumberCorrespondences2d3d()).c_str());
   printFocalLength(row.pointsOnly.result);
-  printErrors(row.pointsOnly.error);
-  std::printf(" %7.2f\n", 1e3 * row.pointsOnly.result.seconds);
+  if (row.pointsOnly.error)
+    std::printf(" %6.2f\n", row.pointsOnly.error->focalPercent);
+  else
+    std::printf(" %6s\n", "-");
 }
 
 Json toJson(const Localization& localization) {
@@ -249,14 +335,16 @@ void printJson(const Row& row) {
   if (row.problem.reference) json["reference_focal_length_px"] = row.problem.reference->focalLength;
   json["hybrid"] = toJson(row.hybrid);
   json["points_only"] = toJson(row.pointsOnly);
-  std::cout << json.dump() << std::endl;  // each object is complete and flushed before the next query starts
+  // Names need not be UTF-8, of which JSON consists.
+  std::printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
 // Collects what the closing line of the table says.
 class Summary {
  public:
   void add(const Localization& localization) {
-    ++queries_, successes_ += localization.result.success;
+    ++queries_;
+    if (localization.result.success) ++successes_;
     milliseconds_.push_back(1e3 * localization.result.seconds);
     if (!localization.error) return;
     focal_.push_back(std::abs(localization.error->focalPercent));
@@ -264,10 +352,9 @@ class Summary {
     position_.push_back(localization.error->position);
   }
   void print(const char* name) const {
-    std::printf("%-24s localized %d of %d", name, successes_, queries_);
+    std::printf("%-10s localized %d of %d", name, successes_, queries_);
     if (!focal_.empty())
-      std::printf("; medians: focal length %.3f %%, rotation %.4f deg, position %.5f", median(focal_), median(rotation_),
-                  median(position_));
+      std::printf("; medians: f %.3f %%, rotation %.4f deg, position %.5f", median(focal_), median(rotation_), median(position_));
     std::printf(", %.2f ms\n", median(milliseconds_));
   }
 
@@ -279,19 +366,25 @@ class Summary {
 void run(const Arguments& arguments) {
   const std::vector<Query> queries = collectQueries(arguments);
   if (queries.empty()) throw std::invalid_argument("nothing to localize");
-  if (!arguments.json) printHeader();
   ProgressBar progress(queries.size(), !arguments.quiet);
   Summary hybrid, pointsOnly;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     progress.show(i);
     const Row row = localizeBothWays(queries[i](), arguments);
-    hybrid.add(row.hybrid), pointsOnly.add(row.pointsOnly);
+    hybrid.add(row.hybrid);
+    pointsOnly.add(row.pointsOnly);
     progress.clear();
-    arguments.json ? printJson(row) : printRow(row);
+    if (!arguments.json && i == 0) printHeader();
+    if (arguments.json)
+      printJson(row);
+    else
+      printRow(row);
+    flush();
   }
   if (arguments.json) return;
   hybrid.print("hybrid");
   pointsOnly.print("2D-3D only");
+  flush();
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hybridgv/detail/format.hpp"
+
 namespace hybridgv {
 
 void throwInvalid(const std::string& argument, const std::string& reason) {
@@ -47,13 +49,30 @@ void checkMultiIndices(const char* name, const std::vector<std::vector<int>>& in
   checkIndices(name, "[1] (2D-3D)", indices[1], needed[1], available[1]);
 }
 
-void checkPose(const std::string& name, const FocalPose& pose) {
+void checkPositive(const std::string& name, double value) {
+  if (!(value > 0) || !std::isfinite(value)) throwInvalid(name, "must be positive and finite, is " + detail::format(value));
+}
+
+void checkNotNegative(const std::string& name, double value) {
+  if (!(value >= 0) || !std::isfinite(value)) throwInvalid(name, "must be finite and not negative, is " + detail::format(value));
+}
+
+void checkFinite(const std::string& name, const Eigen::Vector3d& value) {
+  if (!value.allFinite()) throwInvalid(name, "must be finite, is " + detail::format(value));
+}
+
+void checkRotation(const std::string& name, const Eigen::Matrix3d& value) {
   constexpr double kTolerance = 1e-6;  // admits rotations that were written with seven digits
-  if (!pose.rotation.allFinite() || !pose.position.allFinite()) throwInvalid(name, "not finite");
-  const double error = (pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kTolerance) || pose.rotation.determinant() < 0) throwInvalid(name, "its rotation is not a rotation matrix");
-  if (!(pose.focalLength > 0) || !std::isfinite(pose.focalLength))
-    throwInvalid(name, "its focal length must be positive and finite, is " + std::to_string(pose.focalLength));
+  const double error = (value.transpose() * value - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  // (Eigen's maximum may pass over a NaN.)
+  if (!value.allFinite() || !(error < kTolerance) || value.determinant() < 0)
+    throwInvalid(name, "must be a rotation matrix, is " + detail::format(value));
+}
+
+void checkPose(const std::string& name, const FocalPose& pose) {
+  checkRotation(name + ".rotation", pose.rotation);
+  checkFinite(name + ".position", pose.position);
+  checkPositive(name + ".focalLength", pose.focalLength);
 }
 
 }  // namespace hybridgv

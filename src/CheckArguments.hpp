@@ -1,6 +1,7 @@
 // The checks at every public entry. A wrong call is answered by std::invalid_argument that names the argument and its value.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -19,6 +20,12 @@ void checkIndices(const char* name, const char* part, const std::vector<int>& in
 // Multi-indices {2D-2D, 2D-3D}, with what is needed and available of each kind.
 void checkMultiIndices(const char* name, const std::vector<std::vector<int>>& indices, const std::array<int, 2>& needed,
                        const std::array<std::size_t, 2>& available);
+
+// Throw unless the value is finite and what the name of the function says.
+void checkPositive(const std::string& name, double value);
+void checkNotNegative(const std::string& name, double value);
+void checkFinite(const std::string& name, const Eigen::Vector3d& value);
+void checkRotation(const std::string& name, const Eigen::Matrix3d& value);
 
 // Throws unless the pose is finite with a rotation matrix and a positive focal length.
 void checkPose(const std::string& name, const FocalPose& pose);

@@ -3,7 +3,8 @@
 # build/coverage/coverage.txt, pages with every line in build/coverage/html.
 set -e
 cd "$(dirname "$0")/.."
-sh .ci/install_packages.sh g++ cmake ninja-build pkg-config libeigen3-dev libopengv-dev libgtest-dev gcovr
+sh .ci/install_packages.sh build tests coverage
+. test/recorded_data.sh
 cmake --preset coverage -G Ninja
 cmake --build build/coverage -j "$(nproc)"
 ctest --test-dir build/coverage -j "$(nproc)" --output-on-failure

@@ -20,13 +20,51 @@ cmp "$scratch/a" "$scratch/b" || fail "--stdin"
 expect_error() {
   message=$1 && shift
   "$program" "$@" > "$scratch/out" 2> "$scratch/error" && fail "$* must fail"
-  grep -q "$message" "$scratch/error" || fail "$* must name $message: $(cat "$scratch/error")"
+  grep -q -- "$message" "$scratch/error" || fail "$* must name $message: $(cat "$scratch/error")"
 }
 expect_error "no/such/map" no/such/map
 expect_error "nobody.jpg" "$map" --query nobody.jpg
 expect_error "h99f" --solver h99f
-expect_error "share" --outliers 2
-expect_error "maxReprojectionErrorPx" --max-reprojection-error -1
+expect_error "H13F.*valid are all, .*h13f" --solver H13F
+for share in nan -1 2 x; do expect_error "--outliers: must be from 0 to 1, is $share" --outliers $share; done
+for pixels in nan inf 0 -1; do
+  expect_error "--max-reprojection-error: must be positive and finite, is $pixels" --max-reprojection-error $pixels
+  expect_error "--max-epipolar-error: must be positive and finite, is $pixels" --max-epipolar-error $pixels
+done
+expect_error "--min-parallax: must be finite and not negative, is nan" --min-parallax nan
+for seed in -1 99999999999999999999 1.5; do expect_error "--seed: must be an integer from 0 .*, is $seed" --seed $seed; done
+for count in 0 -1 1.5; do expect_error "--max-iterations: must be a positive integer, is $count" --max-iterations $count; done
+expect_error "--threads: must be 0 (all cores) or a positive integer, is -1" --threads -1
+for probability in nan 0 1; do
+  expect_error "--success-probability: must be between 0 and 1, is $probability" --success-probability $probability
+done
 echo "query 1 2 3" > "$scratch/broken.txt"
 expect_error "broken.txt:1" "$scratch/broken.txt"
+[ ! -s "$scratch/out" ] || fail "nothing on the standard output before an error: $(cat "$scratch/out")"
+expect_error '"nobody\\x1b.jpg"' "$map" --query "$(printf 'nobody\033.jpg')"
+expect_error "there is no map" "$scratch/broken.txt" --query photo_03.jpg
+
+# Standard input: Windows' line ends and blanks around names; names without a map.
+printf ' photo_03.jpg \r\n\r\nphoto_04.jpg\r\n' | "$program" "$map" --stdin --json > "$scratch/crlf" || fail "line ends of Windows"
+[ "$(grep -c '"query":"photo_0[34].jpg"' "$scratch/crlf")" = 2 ] || fail "two queries in lines of Windows"
+echo photo_03.jpg | "$program" --stdin > "$scratch/out" 2> "$scratch/error" && fail "names without a map must fail"
+grep -q "name its map too" "$scratch/error" || fail "names without a map: $(cat "$scratch/error")"
+
+# The table: 100 columns at most, a failed query has no deviation, images of the same name are all localized.
+"$program" > "$scratch/table" || fail "table"
+awk 'length > 100 { print; bad = 1 } END { exit bad }' "$scratch/table" || fail "the table is wider than 100 columns"
+"$program" --query 3 --max-iterations 1 --outliers 1 > "$scratch/table" || fail "a query that cannot be localized"
+grep -q '| *failed  *-  *-  *-  *-  .*| *failed  *-$' "$scratch/table" || fail "a failed row: $(cat "$scratch/table")"
+mkdir "$scratch/twins"
+cp "$map"/cameras.txt "$map"/points3D.txt "$scratch/twins/"
+sed 's/photo_0[5-9].jpg/same.jpg/' "$map/images.txt" > "$scratch/twins/images.txt"
+[ "$("$program" "$scratch/twins" --query same.jpg --json | grep -c '"query":"same.jpg"')" = 5 ] || fail "images of the same name"
+
+# Results that cannot be written are no success.
+if [ -w /dev/full ]; then
+  for format in "" --json; do
+    "$program" $format > /dev/full 2> "$scratch/error" && fail "written to a full device"
+    grep -q "cannot write" "$scratch/error" || fail "the message about a full device: $(cat "$scratch/error")"
+  done
+fi
 echo passed

@@ -1,11 +1,11 @@
 #include "hybridgv/adapters/NoncentralHybridAdapter.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "CheckArguments.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace {
@@ -19,29 +19,21 @@ void checkSize(const char* name, std::size_t size, const char* reference, std::s
 
 std::string element(const char* name, std::size_t index) { return std::string(name) + "[" + std::to_string(index) + "]"; }
 
-template <class Values>
-void checkAllFinite(const char* name, const Values& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!values[i].allFinite()) throwInvalid(element(name, i), "not finite");
+void checkAllFinite(const char* name, const Vectors& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) checkFinite(element(name, i), values[i]);
 }
 
 void checkImagePoints(const char* name, const Vectors& points) {
   checkAllFinite(name, points);
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i][2] == 0) throwInvalid(element(name, i), "the last homogeneous coordinate is 0, expected (u, v, 1)");
-}
-
-void checkRotation(const std::string& name, const Eigen::Matrix3d& rotation) {
-  constexpr double kTolerance = 1e-6;  // admits rotations that were written with seven digits
-  const double error = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kTolerance) || rotation.determinant() < 0) throwInvalid(name, "not a rotation matrix");
+    if (points[i][2] == 0) throwInvalid(element(name, i), "must be homogeneous, (u, v, 1), is " + detail::format(points[i]));
 }
 
 void checkValues(const char* name, const std::vector<double>& values, bool negativeAllowed) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]) || (!negativeAllowed && values[i] < 0))
       throwInvalid(element(name, i), "must be finite" + std::string(negativeAllowed ? "" : " and not negative") + ", is " +
-                                         std::to_string(values[i]));
+                                         detail::format(values[i]));
 }
 
 }  // namespace
@@ -64,7 +56,6 @@ NoncentralHybridAdapter::NoncentralHybridAdapter(Vectors imagePoints2d2d, Vector
   checkImagePoints("imagePoints2d3d", imagePoints2d3d_);
   checkAllFinite("bearingVectors", bearingVectors_);
   checkAllFinite("camOffsets", camOffsets_);
-  checkAllFinite("camRotations", camRotations_);
   checkAllFinite("points", points_);
   for (std::size_t i = 0; i < bearingVectors_.size(); ++i)
     if (bearingVectors_[i].isZero(0)) throwInvalid(element("bearingVectors", i), "its length is zero");

@@ -4,6 +4,7 @@
 
 #include "CameraModels.hpp"
 #include "CheckArguments.hpp"
+#include "hybridgv/detail/format.hpp"
 #include "lens/Lens.hpp"
 
 namespace hybridgv {
@@ -23,7 +24,8 @@ Lens checkedPlaneLens(const Camera& camera) {
 }
 
 void checkPixel(double x, double y) {
-  if (!std::isfinite(x) || !std::isfinite(y)) throwInvalid("(x, y)", "not finite");
+  if (!std::isfinite(x) || !std::isfinite(y))
+    throwInvalid("(x, y)", "must be finite, is (" + detail::format(x) + ", " + detail::format(y) + ")");
 }
 
 std::optional<Eigen::Vector3d> homogeneous(const std::optional<Eigen::Vector2d>& point, double scale) {
@@ -46,7 +48,7 @@ std::optional<Eigen::Vector3d> bearingVector(const Camera& camera, double x, dou
 
 std::optional<Eigen::Vector3d> project(const Camera& camera, const Eigen::Vector3d& point) {
   const Lens lens = checkedLens(camera);
-  if (!point.allFinite()) throwInvalid("point", "not finite");
+  checkFinite("point", point);
   return homogeneous(lens.project(point), 1);
 }
 
@@ -58,7 +60,8 @@ std::optional<Eigen::Vector3d> undistort(const Camera& camera, double x, double 
 
 std::optional<Eigen::Vector3d> distort(const Camera& camera, const Eigen::Vector3d& imagePoint) {
   const Lens lens = checkedPlaneLens(camera);
-  if (!imagePoint.allFinite() || imagePoint[2] == 0) throwInvalid("imagePoint", "must be finite (u, v, 1)");
+  if (!imagePoint.allFinite() || imagePoint[2] == 0)
+    throwInvalid("imagePoint", "must be finite, (u, v, 1), is " + detail::format(imagePoint));
   const double f = lens.focalLength();
   return homogeneous(lens.projectPlane({imagePoint[0] / imagePoint[2] / f, imagePoint[1] / imagePoint[2] / f}), 1);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "CheckArguments.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -48,13 +49,13 @@ const Entry* find(CameraModel model) {
 std::string findParameterFault(const Camera& camera) {
   const std::vector<double>& p = camera.parameters;
   if (camera.model == CameraModel::Equirectangular)
-    return p[0] > 0 && p[1] > 0 ? "" : "the size of the panorama must be positive, is " + std::to_string(std::min(p[0], p[1]));
+    return p[0] > 0 && p[1] > 0 ? "" : "the size of the panorama must be positive, is " + detail::format(std::min(p[0], p[1]));
   const double smallest = find(camera.model)->focalLengths == 2 ? std::min(p[0], p[1]) : p[0];
-  if (!(smallest > 0)) return "the focal length must be positive, is " + std::to_string(smallest);
+  if (!(smallest > 0)) return "the focal length must be positive, is " + detail::format(smallest);
   if (camera.model == CameraModel::Fov && !(std::abs(p[4]) < std::acos(-1.0)))
-    return "the angle of FOV must be smaller than pi, is " + std::to_string(p[4]);
+    return "the angle of FOV must be smaller than pi, is " + detail::format(p[4]);
   if (camera.model == CameraModel::Eucm && !(p[4] >= 0 && p[4] <= 1 && p[5] > 0))
-    return "EUCM wants alpha in 0 .. 1 and beta > 0, got " + std::to_string(p[4]) + " and " + std::to_string(p[5]);
+    return "EUCM wants alpha in 0 .. 1 and beta > 0, got " + detail::format(p[4]) + " and " + detail::format(p[5]);
   return {};
 }
 
@@ -105,7 +106,7 @@ std::string findCameraFault(const Camera& camera) {
     return std::string("model ") + toString(camera.model) + " has " + std::to_string(count) + " parameters, got " +
            std::to_string(camera.parameters.size());
   for (const double value : camera.parameters)
-    if (!std::isfinite(value)) return "a parameter is not finite";
+    if (!std::isfinite(value)) return "the parameters must be finite, one is " + detail::format(value);
   return findParameterFault(camera);
 }
 

@@ -8,6 +8,7 @@
 #include "CameraModels.hpp"
 #include "CheckArguments.hpp"
 #include "Triangulation.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -39,11 +40,15 @@ const Camera& cameraOf(const SparseModel& model, std::size_t image) {
 
 void checkPose(const SparseModel& model, std::size_t image) {
   if (!model.images[image].rotation.allFinite() || !model.images[image].position.allFinite())
-    throwInvalid(element("images", image), "the pose is not finite");
+    throwInvalid(element("images", image), "the pose must be finite, its position is " +
+                                               detail::format(model.images[image].position) + ", its rotation " +
+                                               detail::format(model.images[image].rotation));
 }
 
 void checkObservation(std::size_t image, const Observation& o) {
-  if (!std::isfinite(o.x) || !std::isfinite(o.y)) throwInvalid(element("images", image), "an observation is not finite");
+  if (!std::isfinite(o.x) || !std::isfinite(o.y))
+    throwInvalid(element("images", image),
+                 "an observation must be finite, is (" + detail::format(o.x) + ", " + detail::format(o.y) + ")");
 }
 
 // The query's image point. A plane magnifies the pixels of a fisheye camera by 1/cos^2 of the angle to the axis, and their noise
@@ -82,12 +87,8 @@ std::optional<MapRay> mapRay(const SparseModel& model, std::size_t imageIndex, c
 }
 
 void checkOptions(const LocalizationProblemOptions& options) {
-  const auto check = [](const char* name, double value) {
-    if (!(value >= 0) || !std::isfinite(value))
-      throwInvalid(name, "must be finite and not negative, is " + std::to_string(value));
-  };
-  check("options.minParallaxDeg", options.minParallaxDeg);
-  check("options.maxMapReprojectionErrorPx", options.maxMapReprojectionErrorPx);
+  checkNotNegative("options.minParallaxDeg", options.minParallaxDeg);
+  checkNotNegative("options.maxMapReprojectionErrorPx", options.maxMapReprojectionErrorPx);
 }
 
 // An image that sees a point twice counts with the observation that the track names first.

@@ -5,6 +5,7 @@
 
 #include "CheckArguments.hpp"
 #include "ModelLinks.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -30,9 +31,12 @@ void checkImage(const SparseModel& model, std::size_t index) {
   if (image.name.empty()) throwInvalid(name, "has no name");
   if (image.name.find('\n') != std::string::npos || image.name.find('\0') != std::string::npos)
     throwInvalid(name, "the name contains a line break or a zero byte");
-  if (!image.rotation.allFinite() || !image.position.allFinite()) throwInvalid(name, "the pose is not finite");
+  if (!image.rotation.allFinite() || !image.position.allFinite())
+    throwInvalid(name, "the pose must be finite, its position is " + detail::format(image.position) + ", its rotation " +
+                           detail::format(image.rotation));
   for (const Observation& o : image.observations) {
-    if (!std::isfinite(o.x) || !std::isfinite(o.y)) throwInvalid(name, "an observation is not finite");
+    if (!std::isfinite(o.x) || !std::isfinite(o.y))
+      throwInvalid(name, "an observation must be finite, is (" + detail::format(o.x) + ", " + detail::format(o.y) + ")");
     if (o.point != Observation::kNoPoint && o.point >= model.points.size())
       throwInvalid(name, "there is no point with index " + std::to_string(o.point));
   }
@@ -41,7 +45,9 @@ void checkImage(const SparseModel& model, std::size_t index) {
 void checkPoint(const SparseModel& model, std::size_t index) {
   const Point& point = model.points[index];
   const std::string name = element("points", index);
-  if (!point.position.allFinite() || !std::isfinite(point.error)) throwInvalid(name, "not finite");
+  if (!point.position.allFinite() || !std::isfinite(point.error))
+    throwInvalid(
+        name, "must be finite, its position is " + detail::format(point.position) + ", its error " + detail::format(point.error));
   for (const TrackElement& e : point.track) {
     if (e.image >= model.images.size() || e.observation >= model.images[e.image].observations.size())
       throwInvalid(name, "the track names an observation that does not exist");

@@ -4,6 +4,7 @@
 #include "Printable.hpp"
 #include "TextScanner.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -47,7 +48,7 @@ void readCamera(TextScanner& in, std::size_t index, const FixedCalibration& cali
   image.name = in.word("the name of an image");
   std::replace(image.name.begin(), image.name.end(), '"', ' ');
   const double f = in.number("the focal length of an image");
-  if (!(f > 0)) in.fail("the focal length of image " + std::to_string(index) + " must be positive, is " + std::to_string(f));
+  if (!(f > 0)) in.fail("the focal length of image " + std::to_string(index) + " must be positive, is " + detail::format(f));
   double q[4];
   for (double& coefficient : q) coefficient = in.number("the quaternion of an image");
   const std::string fault = setPoseFromQuaternion(q, Eigen::Vector3d::Zero(), image);

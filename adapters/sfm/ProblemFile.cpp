@@ -9,6 +9,7 @@
 #include "TextScanner.hpp"
 #include "hybridgv/adapters/sfm/FileError.hpp"
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -37,7 +38,7 @@ void readReference(TextScanner& in, Lines& lines) {
   if (lines.reference) in.fail("there is a second 'query' line");
   FocalPose pose;
   pose.focalLength = in.number("the focal length");
-  if (!(pose.focalLength > 0)) in.fail("the focal length must be positive, is " + std::to_string(pose.focalLength));
+  if (!(pose.focalLength > 0)) in.fail("the focal length must be positive, is " + detail::format(pose.focalLength));
   double q[4];
   for (double& coefficient : q) coefficient = in.number("the quaternion");
   Image image;

@@ -3,6 +3,7 @@
 
 #include "CheckArguments.hpp"
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -77,7 +78,7 @@ NoncentralHybridAdapter withImagePoints(const NoncentralHybridAdapter& adapter, 
 }  // namespace
 
 LocalizationProblem injectOutliers(const LocalizationProblem& problem, double share, std::uint64_t seed) {
-  if (!(share >= 0 && share <= 1)) throwInvalid("share", "must be in 0 .. 1, is " + std::to_string(share));
+  if (!(share >= 0 && share <= 1)) throwInvalid("share", "must be in 0 .. 1, is " + detail::format(share));
   const std::size_t rays = problem.adapter.getNumberCorrespondences2d2d();
   const std::size_t points = problem.adapter.getNumberCorrespondences2d3d();
   Random random(seed);

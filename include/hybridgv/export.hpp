@@ -3,9 +3,14 @@
 #pragma once
 
 /// \def HYBRIDGV_EXPORT
-/// Before a class or function: it is part of the shared library's interface.
+/// Before a class or function: it is part of the library's interface.
+///
+/// \def HYBRIDGV_STATIC
+/// Defined where the library is linked statically; the CMake target and the pkg-config file do so.
 
-#if defined(_WIN32)
+#if defined(_WIN32) && defined(HYBRIDGV_STATIC)
+#define HYBRIDGV_EXPORT
+#elif defined(_WIN32)
 #if defined(HYBRIDGV_BUILDING_LIBRARY)
 #define HYBRIDGV_EXPORT __declspec(dllexport)
 #else

@@ -11,6 +11,13 @@
 
 namespace hybridgv {
 
+/// A camera's pose as COLMAP (cam_from_world) and PoseLib write it: a point X of the world, here the rig's frame, is at
+/// rotation * X + translation in the camera's frame.
+struct CamFromWorld {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< world -> camera
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< the world's origin in the camera's frame
+};
+
 /// Pose and focal length of the query camera with respect to the rig (the generalized camera, whose frame is the world frame of
 /// the 3D points).
 ///
@@ -21,7 +28,8 @@ namespace hybridgv {
 /// with (u, v) relative to the principal point, lens distortion removed.
 ///
 /// The members are OpenGV's: rotation turns query coordinates into rig coordinates, position is the query's centre seen from the
-/// rig. (The usual computer-vision pair X_query = R X_rig + t is R = rotation^T, t = -rotation^T position.)
+/// rig. The usual computer-vision pair X_query = R X_rig + t is R = rotation^T, t = -rotation^T position: camFromWorld() gives it,
+/// fromCamFromWorld() takes it.
 struct FocalPose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< query -> rig
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< centre of the query, in the rig's frame and unit
@@ -33,6 +41,19 @@ struct FocalPose {
     result << rotation, position;
     return result;
   }
+
+  /// The inverse transformation, rig -> query: {rotation^T, -rotation^T position}.
+  CamFromWorld camFromWorld() const { return {rotation.transpose(), -(rotation.transpose() * position)}; }
+
+  /// The pose with camFromWorld() == {worldToCamera, translation}.
+  ///
+  /// \param worldToCamera  rotation of the pair X_camera = R X_world + t
+  /// \param translation    t of the same pair; not the camera's centre, which is -R^T t
+  /// \param focalLength    in the unit of the query's image points
+  /// \throws std::invalid_argument for a matrix that is not a rotation, a translation that is not finite, a focal length that is not
+  ///         positive and finite
+  HYBRIDGV_EXPORT static FocalPose fromCamFromWorld(const Eigen::Matrix3d& worldToCamera, const Eigen::Vector3d& translation,
+                                                    double focalLength);
 };
 
 /// Solutions of a minimal problem, in no particular order unless the solver says so.
@@ -41,6 +62,8 @@ using FocalPoses = std::vector<FocalPose>;
 // Whatever instruction set a program is compiled for, it must see the same layout as the library.
 static_assert(alignof(FocalPose) == alignof(double) && sizeof(FocalPose) == 13 * sizeof(double),
               "hybridgv::FocalPose must not depend on Eigen's alignment settings");
+static_assert(alignof(CamFromWorld) == alignof(double) && sizeof(CamFromWorld) == 12 * sizeof(double),
+              "hybridgv::CamFromWorld must not depend on Eigen's alignment settings");
 
 /// The minimal solvers. HmnF takes m 2D-2D and n 2D-3D correspondences.
 enum class Solver {

@@ -18,11 +18,17 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hybridgvConfig.cmake.in 
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hybridgvConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hybridgvConfig.cmake ${PROJECT_BINARY_DIR}/hybridgvConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake DESTINATION ${package_dir}
+              ${CMAKE_CURRENT_LIST_DIR}/hybridgvFindOpenGV.cmake ${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake DESTINATION ${package_dir}
         COMPONENT development)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgvOpenGV.cmake ${PROJECT_BINARY_DIR}/hybridgvOpenGV.cmake COPYONLY)
+foreach(file hybridgvFindOpenGV hybridgvOpenGV)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${file}.cmake ${PROJECT_BINARY_DIR}/${file}.cmake COPYONLY)
+endforeach()
 # The installed package can be moved: its prefix is found from the place of its .pc file.
 string(REGEX REPLACE "[^/]+" ".." prefix_from_pc ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+get_target_property(library_type hybridgv TYPE)
+if(library_type STREQUAL "STATIC_LIBRARY")
+  set(definitions_of_pc " -DHYBRIDGV_STATIC")
+endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgv.pc.in ${PROJECT_BINARY_DIR}/hybridgv.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/hybridgv.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md

@@ -68,9 +68,7 @@ void CorrespondenceArrays::fillRayColumns(const hybrid_pose::HybridAdapterBase& 
     const auto index = static_cast<std::size_t>(indices2d2d[i]);
     const Eigen::Vector3d bearing = adapter.getBearingVector(index);
     const double g = adapter.getRigFocalLength(index);
-    if (!std::isfinite(g) || g < 0)
-      throwInvalid("adapter.getRigFocalLength(" + std::to_string(index) + ")",
-                   "must be finite and not negative, is " + std::to_string(g));
+    if (!std::isfinite(g) || g < 0) checkNotNegative("adapter.getRigFocalLength(" + std::to_string(index) + ")", g);
     const bool isPinhole = bearing[2] > 0;
     mapImagePoints_.push_back({isPinhole ? bearing[0] / bearing[2] : 0, isPinhole ? bearing[1] / bearing[2] : 0, g});
 

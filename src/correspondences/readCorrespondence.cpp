@@ -4,21 +4,25 @@
 #include <string>
 
 #include "CheckArguments.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace correspondences {
 
+static std::string nameOf(const char* what, int index) {
+  return std::string("adapter.") + what + "(" + std::to_string(index) + ")";
+}
+
+// Names are put together only where an error is reported: this runs for every correspondence.
 static void checkFinite(const char* what, int index, const Eigen::Vector3d& value) {
-  if (!value.allFinite())
-    throwInvalid(
-        std::string("adapter.") + what + "(" + std::to_string(index) + ")",
-        "not finite: (" + std::to_string(value[0]) + ", " + std::to_string(value[1]) + ", " + std::to_string(value[2]) + ")");
+  if (!value.allFinite()) hybridgv::checkFinite(nameOf(what, index), value);
 }
 
 // (u, v, w) -> (u/w, v/w)
 static Eigen::Vector3d readImagePoint(const char* what, int index, const Eigen::Vector3d& homogeneous) {
   Eigen::Vector3d point = homogeneous[2] == 1 ? homogeneous : Eigen::Vector3d(homogeneous / homogeneous[2]);
-  checkFinite(what, index, point);
+  if (!point.allFinite())
+    throwInvalid(nameOf(what, index), "must be finite and homogeneous, (u, v, 1), is " + detail::format(homogeneous));
   return point;
 }
 
@@ -28,8 +32,8 @@ RayMatch readRay(const hybrid_pose::HybridAdapterBase& adapter, int index) {
   const Eigen::Vector3d direction = adapter.getCamRotation(i) * adapter.getBearingVector(i);
   const double length = direction.norm();
   if (!(length > 0) || !std::isfinite(length))
-    throwInvalid("adapter.getCamRotation(" + std::to_string(index) + ") * getBearingVector(" + std::to_string(index) + ")",
-                 "its length must be positive and finite, is " + std::to_string(length));
+    throwInvalid(nameOf("getCamRotation", index) + " * " + nameOf("getBearingVector", index),
+                 "its length must be positive and finite, is " + detail::format(length));
   const Eigen::Vector3d centre = adapter.getCamOffset(i);
   checkFinite("getCamOffset", index, centre);
   return {image[0], image[1], centre, direction / length, adapter.getCamIndex(i)};

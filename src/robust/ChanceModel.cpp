@@ -16,8 +16,10 @@ constexpr double kLogMoreThanChance = -7;
 class BoundingBox {
  public:
   void add(double u, double v) {
-    minU_ = std::min(minU_, u), maxU_ = std::max(maxU_, u);
-    minV_ = std::min(minV_, v), maxV_ = std::max(maxV_, v);
+    minU_ = std::min(minU_, u);
+    maxU_ = std::max(maxU_, u);
+    minV_ = std::min(minV_, v);
+    maxV_ = std::max(maxV_, v);
   }
   double area() const { return (maxU_ - minU_) * (maxV_ - minV_); }
   double diagonal() const { return std::hypot(maxU_ - minU_, maxV_ - minV_); }

@@ -21,7 +21,8 @@ ErrorMixture makeMixture(double deviation, double scale, double density, const I
   const double all = static_cast<double>(std::max<std::size_t>(count.all, 1));
   const double inliers = static_cast<double>(count.inliers), outliers = std::max(all - inliers, 1.0);
   ErrorMixture result;
-  result.deviation = deviation, result.scale = scale;
+  result.deviation = deviation;
+  result.scale = scale;
   result.odds = std::min(std::max(inliers, 0.5) / outliers * density / count.chanceShare, kMaxOdds);
   result.outlierShare = outliers / all;
   const double boundary = scale * std::sqrt(std::max(std::pow(result.odds, 1 / 8.) - 1, 0.0));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "CheckArguments.hpp"
+#include "hybridgv/detail/format.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -33,7 +34,7 @@ std::vector<int> byQuality(const char* name, const std::vector<int>& indices, We
   for (const int i : order)
     if (!std::isfinite(weightOf(i)))
       throwInvalid("adapter." + std::string(name) + "(" + std::to_string(indices[static_cast<std::size_t>(i)]) + ")",
-                   "must be finite, is " + std::to_string(weightOf(i)));
+                   "must be finite, is " + detail::format(weightOf(i)));
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
   return order;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "CheckArguments.hpp"
+#include "hybridgv/detail/format.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "solvers/MinimalProblems.hpp"
 
@@ -20,8 +21,9 @@ std::vector<SolverPrior> defaultSolvers() {
   return result;
 }
 
-static void require(bool holds, const char* name, double value, const char* expected) {
-  if (!holds) throwInvalid(std::string("options.") + name, "must be " + std::string(expected) + ", is " + std::to_string(value));
+template <class Number>
+static void require(bool holds, const char* name, Number value, const char* expected) {
+  if (!holds) throwInvalid(std::string("options.") + name, "must be " + std::string(expected) + ", is " + detail::format(value));
 }
 
 template <class Enumeration>
@@ -39,7 +41,8 @@ void HybridRansacOptions::check() const {
   require(minIterations >= 0, "minIterations", minIterations, "not negative");
   require(timeBudgetSeconds > 0, "timeBudgetSeconds", timeBudgetSeconds, "positive");
   require(minFocalLength >= 0 && std::isfinite(minFocalLength), "minFocalLength", minFocalLength, "finite and not negative");
-  require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength, "greater than minFocalLength");
+  require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength,
+          ("greater than minFocalLength (" + detail::format(minFocalLength) + ")").c_str());
   require(threads >= 0, "threads", threads, "0 (all cores) or positive");
   if (solvers.empty() && !initialPose) throwInvalid("options.solvers", "empty, and there is no initialPose");
   for (const SolverPrior& entry : solvers) requireListed(allSolvers(), "solvers", entry.solver);

@@ -22,6 +22,7 @@ constexpr LayoutEntry entry(const char* type) {
 
 #define HYBRIDGV_ENTRY(T) entry<T>(#T)
 static constexpr LayoutEntry kEntries[] = {
+    HYBRIDGV_ENTRY(CamFromWorld),
     HYBRIDGV_ENTRY(FocalPose),
     HYBRIDGV_ENTRY(FocalPoses),
     HYBRIDGV_ENTRY(NoncentralHybridAdapter),

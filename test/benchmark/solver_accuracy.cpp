@@ -85,9 +85,10 @@ void addOneCentreRows(std::vector<Row>* rows) {
 }
 
 std::vector<Row> rows(bool awkward) {
+  const solvers::SolveFunction severalCentres = &solvers::h51f::solve;  // has rows of its own
   std::vector<Row> rows;
   for (const SolverConfiguration& configuration : solverConfigurations())
-    if (configuration.solver->solve != &solvers::h51f::solve) addRows(configuration, awkward, &rows);
+    if (configuration.solver->solve != severalCentres) addRows(configuration, awkward, &rows);
   addH51fRows(awkward, &rows);
   if (awkward) addOneCentreRows(&rows);
   return rows;

@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
   registerGp3p();
-  for (const SolverConfiguration& row : test::solverConfigurations()) registerSolver(row);
+  for (const SolverConfiguration& row : hybridgv::test::solverConfigurations()) registerSolver(row);
   TableReporter reporter("gp3p", markdown);
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();

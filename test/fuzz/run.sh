@@ -10,7 +10,7 @@ set -e
 seconds=${1:?usage: run.sh SECONDS [NAME ...]}
 shift
 cd "$(dirname "$0")/../.."
-sh .ci/install_packages.sh clang-14 libclang-rt-14-dev cmake ninja-build libeigen3-dev
+sh .ci/install_packages.sh build clang
 [ -f build/fuzz/CMakeCache.txt ] || cmake --preset fuzz -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF >&2
 cmake --build build/fuzz --target fuzzers >&2
 build/fuzz/test/fuzz/make_seeds build/fuzz/seeds

@@ -47,6 +47,20 @@ TEST(Misuse, NoncentralAdapterRefusesNumbersThatAreNotFinite) {
       }
 }
 
+TEST(Misuse, NoncentralAdapterShowsTheWrongValue) {
+  expectWrong("far", "points[1]: must be finite, is (1, -1e-09, inf)", [](Arguments& a) { a.points[1] = {1, -1e-9, kInfinite}; });
+  expectWrong("no image", "imagePoints2d2d[1]: must be homogeneous, (u, v, 1), is (1e+300, 2, 0)", [](Arguments& a) {
+    a.imagePoints2d2d[1] = {1e300, 2, 0};
+  });
+  expectWrong("mirror", "camRotations[0]: must be a rotation matrix, is [1, 0, 0; 0, 1, 0; 0, 0, -1]",
+              [](Arguments& a) { a.camRotations[0] = Eigen::Vector3d(1, 1, -1).asDiagonal(); });
+  NoncentralHybridAdapter adapter = goodAdapter();
+  std::vector<double> focalLengths(5, 1000);
+  focalLengths[2] = -1e-9;
+  expectRefused("rig focal length", "focalLengths[2]: must be finite and not negative, is -1e-09",
+                [&] { adapter.setRigFocalLengths(focalLengths); });
+}
+
 TEST(Misuse, NoncentralAdapterRefusesListsThatDoNotFit) {
   expectWrong("too few", "bearingVectors", [](Arguments& a) { a.bearingVectors.pop_back(); });
   expectWrong("too many", "bearingVectors", [](Arguments& a) { a.bearingVectors.push_back({0, 0, 1}); });

@@ -1,5 +1,6 @@
 // Wrong calls of hybridRansac.
 #include "Misuse.hpp"
+#include "hybridgv/detail/format.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 
 namespace hybridgv {
@@ -14,7 +15,9 @@ TEST(Misuse, RansacRefusesWrongOptions) {
     std::vector<double> wrong;
     std::function<void(HybridRansacOptions&, double)> set;
   } rows[] = {
-      {"maxReprojectionErrorPx", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxReprojectionErrorPx = v; }},
+      {"maxReprojectionErrorPx",
+       {kNaN, kInfinite, -kInfinite, 0, -1, -1e-9, -1e300},
+       [](auto& o, double v) { o.maxReprojectionErrorPx = v; }},
       {"maxEpipolarErrorPx", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxEpipolarErrorPx = v; }},
       {"successProbability", {kNaN, kInfinite, -kInfinite, 0, 1, -0.5, 1.5}, [](auto& o, double v) { o.successProbability = v; }},
       {"maxIterations", {0, -1}, [](auto& o, double v) { o.maxIterations = static_cast<int>(v); }},
@@ -31,8 +34,9 @@ TEST(Misuse, RansacRefusesWrongOptions) {
     for (const double value : row.wrong) {
       HybridRansacOptions options;
       row.set(options, value);
-      const std::string wrong = row.option + (" = " + std::to_string(value));
+      const std::string wrong = row.option + (" = " + detail::format(value));
       expectRefused(wrong, row.option, [&] { options.check(); });
+      expectRefused(wrong, ", is " + detail::format(value), [&] { options.check(); });
       expectRefused(wrong, row.option, [&] { sac::hybridRansac(adapter, options); });
     }
 }

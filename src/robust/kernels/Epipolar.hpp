@@ -20,7 +20,8 @@ struct Epipolar {
     s = cross(w, direction);
     squaredPixelOfQuery = load<Doubles>(rays.isUnknown + i) * unknownPixel;
     squaredPixel = load<Doubles>(rays.squaredPixel + i) + squaredPixelOfQuery;
-    l1 = dot(pose.r1, l), l2 = dot(pose.r2, l);
+    l1 = dot(pose.r1, l);
+    l2 = dot(pose.r2, l);
     alongNormal = dot(imageNormal, n);
     constraint = dot(w, l);
     varianceInMap = dot(n, n) - alongNormal * alongNormal;
@@ -41,7 +42,9 @@ static inline double squaredPixelOfUnknown(const RayArrays& rays, const PlainPos
   return 1 / (g * g);
 }
 
-using Row = Doubles[kParameters];
+// The derivatives by N parameters.
+template <int N>
+using Row = Doubles[N];
 
 // The error e = C G^(-1/2) has the derivative G^(-1/2) (dC - C/G dG/2). Summed is G (de)^2 with the weight divided by G, which
 // needs no square root. With q = (u, v, f), m the part of n in the map's image plane, all vectors in the rig's frame but for the
@@ -50,7 +53,8 @@ using Row = Doubles[kParameters];
 //   dG/2 = (r3.l) (l2, -l1, 0) . rotation + R^T (w x (t x m)) h . rotation
 //        + ((l1 r1 + l2 r2) x D + h w x m) . dposition + (h f r3 . (t x m) - hq m.n) dlogf
 // where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
-HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose, bool pixelVaries, Row& derivatives) {
+HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose, bool pixelVaries,
+                                   Row<correspondences::kFocalPoseParameters>& derivatives) {
   const Doubles l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
   const Vec3<Doubles> m = ray.n - ray.alongNormal * ray.imageNormal;
   const Vec3<Doubles> tm = cross(ray.t, m);

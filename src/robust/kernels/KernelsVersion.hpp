@@ -2,6 +2,7 @@
 #pragma once
 
 #include "robust/kernels/Leverages.hpp"
+#include "robust/kernels/Pinhole.hpp"
 #include "robust/kernels/PointEquations.hpp"
 #include "robust/kernels/RayEquations.hpp"
 #include "robust/kernels/Scores.hpp"
@@ -10,8 +11,14 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
+template <class Camera>
+constexpr Kernels makeKernels() {
+  return {&squaredPointErrors<Camera>, &squaredRayErrors<Camera>, &scorePoints<Camera>, &scoreRays<Camera>,
+          &addPoints<Camera>,          &addRays<Camera>,          &rayLeverages<Camera>};
+}
+
 extern const Kernels kKernels;
-const Kernels kKernels = {&squaredPointErrors, &squaredRayErrors, &scorePoints, &scoreRays, &addPoints, &addRays, &rayLeverages};
+const Kernels kKernels = makeKernels<Pinhole>();
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust

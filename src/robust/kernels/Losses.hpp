@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "robust/kernels/Epipolar.hpp"
+#include "robust/kernels/PoseLanes.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -101,7 +101,8 @@ class CostSum {
   Doubles rho_{};
 };
 
-HYBRIDGV_INLINE DoubleMask isValid(const Epipolar& ray, Doubles squaredError, const KindLoss& loss) {
+template <class Ray>
+HYBRIDGV_INLINE DoubleMask isValid(const Ray& ray, Doubles squaredError, const KindLoss& loss) {
   const DoubleMask isFinite = (ray.variance > 0) & (squaredError < kInfinity);
   return loss.loss == Loss::Quadratic ? isFinite : isFinite & ray.inFront();
 }

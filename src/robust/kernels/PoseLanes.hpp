@@ -13,10 +13,6 @@ using namespace math;
 constexpr int kWidth = LaneTraits<Doubles>::kWidth;
 constexpr double kInfinity = __builtin_huge_val();
 
-// A camera without distortion: the derivatives are by rotation, position and log f.
-constexpr int kParameters = correspondences::kFocalPoseParameters;
-constexpr int kTriangle = kParameters * (kParameters + 1) / 2;
-
 struct Pose {
   explicit Pose(const PlainPose& pose)
       : r1(broadcastVector<Doubles>(pose.r1)),

@@ -16,8 +16,10 @@ struct Reprojection {
   }
   void project(const PointArrays& points, std::size_t i, const Pose& pose) {
     scale = pose.f / inQuery.z;
-    projectedU = scale * inQuery.x, projectedV = scale * inQuery.y;
-    errorU = projectedU - load<Doubles>(points.u + i), errorV = projectedV - load<Doubles>(points.v + i);
+    projectedU = scale * inQuery.x;
+    projectedV = scale * inQuery.y;
+    errorU = projectedU - load<Doubles>(points.u + i);
+    errorV = projectedV - load<Doubles>(points.v + i);
     squaredError = errorU * errorU + errorV * errorV;
   }
 

@@ -3,27 +3,28 @@
 
 #include "robust/kernels/Epipolar.hpp"
 #include "robust/kernels/Ranges.hpp"
-#include "robust/kernels/Reprojection.hpp"
 
 namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
+template <class Camera>
 static void squaredPointErrors(const PointArrays& points, const PlainPose& plainPose, double* errors) {
   const Pose pose(plainPose);
   for (std::size_t i = 0; i < points.size; i += kWidth) {
-    const Reprojection point(points, i, pose);
+    const typename Camera::Point point(points, i, pose);
     const DoubleMask valid = point.inFront & (point.squaredError < kInfinity);
     const Doubles squared = select<Doubles>(valid, point.squaredError, broadcast<Doubles>(kInfinity));
     store(errors + i, squared);
   }
 }
 
+template <class Camera>
 static void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
   const Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    const Epipolar ray(rays, i, pose, unknownPixel);
+    const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles error = ray.squaredError();
     const Doubles squared = select<Doubles>(ray.inFront() & (error < kInfinity), error, broadcast<Doubles>(kInfinity));
     store(errors + i, squared);
@@ -46,24 +47,26 @@ class ScoreSum {
   Doubles threshold_, perSquare_, gain_{}, inliers_{};
 };
 
+template <class Camera>
 static Score scorePoints(const PointArrays& points, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
                          std::size_t end) {
   const Pose pose(plainPose);
   ScoreSum result(squaredThreshold);
   forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
-    const Reprojection point(points, i, pose);
+    const typename Camera::Point point(points, i, pose);
     result.add(point.inFront & inRange, point.squaredError);
   });
   return result.score();
 }
 
+template <class Camera>
 static Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
                        std::size_t end) {
   const Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
   ScoreSum result(squaredThreshold);
   forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
-    const Epipolar ray(rays, i, pose, unknownPixel);
+    const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     result.add(ray.inFront() & inRange, ray.squaredError());
   });
   return result.score();

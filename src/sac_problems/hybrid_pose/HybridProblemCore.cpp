@@ -8,6 +8,7 @@
 #include "CheckArguments.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "hybrid_pose/solveSample.hpp"
+#include "hybridgv/detail/format.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "robust/kernels/Kernels.hpp"
 #include "robust/toPlain.hpp"
@@ -22,10 +23,6 @@ namespace hybrid_pose {
 namespace {
 
 using hybridgv::hybrid_pose::Sample;
-
-void checkThreshold(const char* name, double value) {
-  if (!(value > 0) || !std::isfinite(value)) throwInvalid(name, "must be positive and finite, is " + std::to_string(value));
-}
 
 void checkCount(const char* what, int available, int needed, const char* solver) {
   if (available < needed)
@@ -51,8 +48,8 @@ struct HybridProblemCore::Data {
         maxEpipolarErrorPx(epipolarPx) {
     arrays.boundUnknownFocalLengths();
     for (std::size_t i = 0; i < arrays.rays().size(); ++i) cameras.push_back(correspondences.getCamIndex(i));
-    checkThreshold("maxReprojectionErrorPx", reprojectionPx);
-    checkThreshold("maxEpipolarErrorPx", epipolarPx);
+    checkPositive("maxReprojectionErrorPx", reprojectionPx);
+    checkPositive("maxEpipolarErrorPx", epipolarPx);
     checkCount("2D-2D", count2d2d(), problem.rays(), problem.name());
     checkCount("2D-3D", count2d3d(), problem.points(), problem.name());
   }
@@ -189,7 +186,7 @@ void HybridProblemCore::distances(const FocalPose& model, const std::vector<int>
 
 int HybridProblemCore::countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const {
   checkRanges("indices", flat, data_->count());
-  if (!(threshold >= 0)) throwInvalid("threshold", "must not be negative, is " + std::to_string(threshold));
+  if (!(threshold >= 0)) throwInvalid("threshold", "must not be negative, is " + detail::format(threshold));
   std::vector<double> squaredDistances;
   data_->computeSquaredDistances(model, squaredDistances);
   const double squaredThreshold = threshold * threshold;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hybridgv/detail/format.hpp"
 #include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
 
 namespace hybridgv {
@@ -79,7 +80,7 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
   OpenGVHybridAdapter(const RelativeAdapter* relative, const AbsoluteAdapter* absolute, double nominalFocalLength)
       : relative_(relative), absolute_(absolute), nominalFocalLength_(nominalFocalLength) {
     if (!(nominalFocalLength > 0) || !std::isfinite(nominalFocalLength))
-      throwInvalid("nominalFocalLength", "must be positive and finite, is " + std::to_string(nominalFocalLength));
+      throwInvalid("nominalFocalLength", "must be positive and finite, is " + detail::format(nominalFocalLength));
     if (relative_) readRelative();
     if (absolute_) checkAbsolute();
   }
@@ -110,16 +111,16 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
 
   static void checkQueryBearing(const char* name, std::size_t index, const Eigen::Vector3d& bearing) {
     if (!bearing.allFinite() || !(bearing[2] > 0))
-      throwInvalid(element(name, index), "must be finite and point forward (z > 0), is (" + std::to_string(bearing[0]) + ", " +
-                                             std::to_string(bearing[1]) + ", " + std::to_string(bearing[2]) + ")");
+      throwInvalid(element(name, index), "must be finite and point forward (z > 0), is " + detail::format(bearing));
   }
 
   static void checkQueryCamera(const char* offsetName, const char* rotationName, std::size_t index, const Eigen::Vector3d& offset,
                                const Eigen::Matrix3d& rotation) {
     constexpr double kTolerance = 1e-12;
-    const char* reason = "the query camera must be in the origin of its viewpoint (zero offset, identity rotation)";
-    if (!offset.isZero(kTolerance)) throwInvalid(element(offsetName, index), reason);
-    if (!rotation.isIdentity(kTolerance)) throwInvalid(element(rotationName, index), reason);
+    const std::string reason = "the query camera must be in the origin of its viewpoint (zero offset, identity rotation), is ";
+    if (!offset.isZero(kTolerance)) throwInvalid(element(offsetName, index), reason + "at " + detail::format(offset));
+    if (!rotation.isIdentity(kTolerance))
+      throwInvalid(element(rotationName, index), reason + "turned by " + detail::format(rotation));
   }
 
   static std::string element(const char* name, std::size_t index) {
@@ -127,7 +128,7 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
   }
 
   [[noreturn]] static void throwInvalid(const std::string& argument, const std::string& reason) {
-    throw std::invalid_argument("hybridgv::OpenGVHybridAdapter: " + argument + ": " + reason);
+    throw std::invalid_argument("hybridgv: " + argument + ": " + reason);
   }
 
   Eigen::Vector3d imagePoint(const Eigen::Vector3d& bearing) const {
