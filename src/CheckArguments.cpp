@@ -61,12 +61,15 @@ void checkFinite(const std::string& name, const Eigen::Vector3d& value) {
   if (!value.allFinite()) throwInvalid(name, "must be finite, is " + detail::format(value));
 }
 
+bool isRotation(const Eigen::Matrix3d& matrix) {
+  constexpr double kTolerance = 1e-6;
+  if (!matrix.allFinite()) return false;  // Eigen's maximum may pass over a NaN
+  const double error = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return error < kTolerance && matrix.determinant() > 0;
+}
+
 void checkRotation(const std::string& name, const Eigen::Matrix3d& value) {
-  constexpr double kTolerance = 1e-6;  // admits rotations that were written with seven digits
-  const double error = (value.transpose() * value - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  // (Eigen's maximum may pass over a NaN.)
-  if (!value.allFinite() || !(error < kTolerance) || value.determinant() < 0)
-    throwInvalid(name, "must be a rotation matrix, is " + detail::format(value));
+  if (!isRotation(value)) throwInvalid(name, "must be a rotation matrix, is " + detail::format(value));
 }
 
 void checkPose(const std::string& name, const FocalPose& pose) {

@@ -27,6 +27,10 @@ void checkNotNegative(const std::string& name, double value);
 void checkFinite(const std::string& name, const Eigen::Vector3d& value);
 void checkRotation(const std::string& name, const Eigen::Matrix3d& value);
 
+// Whether R^T R is the identity up to 1e-6, which admits rotations that were written with seven digits, and det R > 0. False for
+// numbers that are not finite.
+bool isRotation(const Eigen::Matrix3d& matrix);
+
 // Throws unless the pose is finite with a rotation matrix and a positive focal length.
 void checkPose(const std::string& name, const FocalPose& pose);
 

@@ -4,6 +4,7 @@
 #include "CheckArguments.hpp"
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
 #include "hybridgv/detail/format.hpp"
+#include "math/RandomStream.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -11,29 +12,13 @@ namespace {
 
 using Vectors = NoncentralHybridAdapter::Vectors;
 
-// splitmix64
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>(next() % count); }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
-};
-
 // A random order of the first `count` entries among all of them.
-void shuffleFront(std::vector<std::size_t>& entries, std::size_t count, Random& random) {
-  for (std::size_t i = 0; i < count; ++i) std::swap(entries[i], entries[i + random.index(entries.size() - i)]);
+void shuffleFront(std::vector<std::size_t>& entries, std::size_t count, math::SplitMix64& random) {
+  for (std::size_t i = 0; i < count; ++i) std::swap(entries[i], entries[i + random.below(entries.size() - i)]);
 }
 
 // round(share * count) different numbers first, first + 1, .. first + count - 1.
-std::vector<std::size_t> choose(std::size_t first, std::size_t count, double share, Random& random) {
+std::vector<std::size_t> choose(std::size_t first, std::size_t count, double share, math::SplitMix64& random) {
   std::vector<std::size_t> entries(count);
   std::iota(entries.begin(), entries.end(), first);
   const auto chosen = static_cast<std::size_t>(std::lround(share * static_cast<double>(count)));
@@ -81,7 +66,7 @@ LocalizationProblem injectOutliers(const LocalizationProblem& problem, double sh
   if (!(share >= 0 && share <= 1)) throwInvalid("share", "must be in 0 .. 1, is " + detail::format(share));
   const std::size_t rays = problem.adapter.getNumberCorrespondences2d2d();
   const std::size_t points = problem.adapter.getNumberCorrespondences2d3d();
-  Random random(seed);
+  math::SplitMix64 random(seed);
   std::vector<std::size_t> chosen = choose(0, rays, share, random);
   const std::vector<std::size_t> chosenPoints = choose(rays, points, share, random);
   chosen.insert(chosen.end(), chosenPoints.begin(), chosenPoints.end());

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/RandomStream.hpp"
+
 namespace {
 
 using namespace hybridgv::sfm;
@@ -18,25 +20,13 @@ constexpr std::size_t kPoints = 1100;
 // The building: a box on the ground, 22 m wide, 14 m deep, 11 m high; x to the right along the front, y into the building, z up.
 const Vector3d kLow(-11, 0, 0), kHigh(11, 14, 11);
 
-// splitmix64, the same on every platform
-class Random {
+class Random : public hybridgv::math::SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(next() >> 11) * 0x1.0p-53); }
+  using SplitMix64::SplitMix64;
   double normal() {
     const double radius = std::sqrt(-2 * std::log(uniform(1e-16, 1)));
-    return radius * std::cos(2 * kPi * uniform(0, 1));
+    return radius * std::cos(2 * kPi * uniform());
   }
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>(next() % count); }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
 };
 
 // To a number of decimals, so that the value is short in the file.
@@ -74,7 +64,7 @@ SurfacePoint makeSurfacePoint(Random& random) {
     return {{random.uniform(-13, 16), random.uniform(-9, -1), random.uniform(0, 0.05)}, {0, 0, 1}, {110, 112, 105}};
   }
   // lamp posts and a statue in front of the building
-  const double post = static_cast<double>(random.index(4));
+  const double post = static_cast<double>(random.below(4));
   return {{-9 + 7 * post + random.uniform(-0.3, 0.3), -5 + 0.6 * post, random.uniform(0.3, 4)}, {0, -1, 0}, {70, 72, 76}};
 }
 
@@ -161,7 +151,7 @@ std::optional<Vector3d> project(const Camera& camera, const Image& image, const 
 std::vector<std::size_t> chooseViewers(const std::vector<Image>& images, const std::vector<std::size_t>& visible,
                                        const SurfacePoint& point, Random& random) {
   constexpr double kWidestAngle = 14 * kPi / 180;
-  const std::size_t first = visible[random.index(visible.size())];
+  const std::size_t first = visible[random.below(visible.size())];
   const double luck = random.uniform(0.05, 0.6);  // how distinctive the point is
   std::vector<std::size_t> result;
   for (const std::size_t i : visible) {
@@ -228,7 +218,7 @@ void addPoint(SparseModel& model, const SurfacePoint& surface, const std::vector
   point.error = rounded(meanError(model, point), 1000);
   for (int i = 0; i < 3; ++i)
     point.colour[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>(surface.colour[static_cast<std::size_t>(i)] + random.index(40) - 20);
+        static_cast<std::uint8_t>(surface.colour[static_cast<std::size_t>(i)] + random.below(40) - 20);
   model.points.push_back(std::move(point));
 }
 

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 
-#include "CheckArguments.hpp"
-#include "correspondences/EpipolarRay.hpp"
 #include "correspondences/readCorrespondence.hpp"
 
 namespace hybridgv {
@@ -37,17 +34,54 @@ Normalization normalizationOf(const std::vector<Eigen::Vector3d>& positions) {
   return result;
 }
 
+template <class Element>
+std::vector<Element> chosen(const std::vector<Element>& list, const std::vector<int>& indices) {
+  std::vector<Element> result;
+  result.reserve(indices.size());
+  for (const int index : indices) result.push_back(list[static_cast<std::size_t>(index)]);
+  return result;
+}
+
+// Columns of padded(size) rows each.
+std::vector<double> chosenRows(const std::vector<double>& columns, std::size_t count, std::size_t size,
+                               const std::vector<int>& indices) {
+  const std::size_t from = padded(size), to = padded(indices.size());
+  std::vector<double> result(count * to, 0);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      result[k * to + i] = columns[k * from + static_cast<std::size_t>(indices[i])];
+  return result;
+}
+
 }  // namespace
 
-CorrespondenceArrays::CorrespondenceArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
-                                           const std::vector<int>& indices2d3d) {
-  rays_.reserve(indices2d2d.size());
-  points_.reserve(indices2d3d.size());
-  for (const int index : indices2d2d) rays_.push_back(readRay(adapter, index));
-  for (const int index : indices2d3d) points_.push_back(readPoint(adapter, index));
+CorrespondenceArrays::CorrespondenceArrays(const Correspondences& correspondences) : points_(correspondences.points) {
+  rays_.reserve(correspondences.rays.size());
+  mapImagePoints_.reserve(correspondences.rays.size());
+  for (const RigRay& ray : correspondences.rays) {
+    rays_.push_back(ray.match);
+    mapImagePoints_.push_back(ray.mapImagePoint);
+  }
   normalize();
-  fillRayColumns(adapter, indices2d2d);
+  fillRayColumns(correspondences.rays);
   fillPointColumns();
+}
+
+CorrespondenceArrays::CorrespondenceArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
+                                           const std::vector<int>& indices2d3d)
+    : CorrespondenceArrays(readCorrespondences(adapter, indices2d2d, indices2d3d)) {}
+
+CorrespondenceArrays CorrespondenceArrays::subset(const std::vector<int>& rayIndices,
+                                                  const std::vector<int>& pointIndices) const {
+  CorrespondenceArrays result;
+  result.normalization_ = normalization_;
+  result.leastFocalLength_ = leastFocalLength_;
+  result.rays_ = chosen(rays_, rayIndices);
+  result.points_ = chosen(points_, pointIndices);
+  result.mapImagePoints_ = chosen(mapImagePoints_, rayIndices);
+  result.rayColumns_ = chosenRows(rayColumns_, kRayColumns, rays_.size(), rayIndices);
+  result.pointColumns_ = chosenRows(pointColumns_, kPointColumns, points_.size(), pointIndices);
+  return result;
 }
 
 void CorrespondenceArrays::normalize() {
@@ -61,19 +95,13 @@ void CorrespondenceArrays::normalize() {
   for (RayMatch& match : rays_) match.centre = normalization_.apply(match.centre);
 }
 
-void CorrespondenceArrays::fillRayColumns(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d) {
-  const std::size_t rows = padded(rays_.size());
+void CorrespondenceArrays::fillRayColumns(const std::vector<RigRay>& rays) {
+  const std::size_t rows = padded(rays.size());
   rayColumns_.assign(kRayColumns * rows, 0);
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    const auto index = static_cast<std::size_t>(indices2d2d[i]);
-    const Eigen::Vector3d bearing = adapter.getBearingVector(index);
-    const double g = adapter.getRigFocalLength(index);
-    if (!std::isfinite(g) || g < 0) checkNotNegative("adapter.getRigFocalLength(" + std::to_string(index) + ")", g);
-    const bool isPinhole = bearing[2] > 0;
-    mapImagePoints_.push_back({isPinhole ? bearing[0] / bearing[2] : 0, isPinhole ? bearing[1] / bearing[2] : 0, g});
-
+  for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayMatch& match = rays_[i];
-    const EpipolarRay ray = makeEpipolarRay(bearing, adapter.getCamRotation(index));
+    const EpipolarRay& ray = rays[i].epipolar;
+    const double g = rays[i].mapImagePoint.focalLength;
     double values[kRayColumns] = {match.u, match.v};
     for (int k = 0; k < 3; ++k) {
       values[2 + k] = match.centre[k];
@@ -115,6 +143,10 @@ PointArrays CorrespondenceArrays::pointArrays() const {
   const std::size_t rows = padded(points_.size());
   const auto column = [&](std::size_t k) { return pointColumns_.data() + k * rows; };
   return {points_.size(), column(0), column(1), column(2), column(3), column(4)};
+}
+
+Correspondences Correspondences::subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const {
+  return {chosen(rays, rayIndices), chosen(points, pointIndices)};
 }
 
 std::size_t padded(std::size_t size) { return (size + kPadding - 1) / kPadding * kPadding; }

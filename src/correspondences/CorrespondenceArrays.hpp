@@ -2,7 +2,6 @@
 // quantity.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "correspondences/ArrayViews.hpp"
@@ -25,31 +24,31 @@ struct Normalization {
 
 class CorrespondenceArrays {
  public:
-  // Reads the correspondences indices2d2d and indices2d3d, in this order.
-  // Throws std::invalid_argument for data that are not finite.
+  explicit CorrespondenceArrays(const Correspondences& correspondences);
+  // Reads the correspondences indices2d2d and indices2d3d, in this order. Throws as readCorrespondences does.
   CorrespondenceArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
                        const std::vector<int>& indices2d3d);
+
+  // Those with these indices, in their order: the same numbers, in the same normalized frame.
+  CorrespondenceArrays subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const;
 
   // A rig camera of unknown focal length then has at least twice the largest coordinate of the query's image points (about the
   // width of the image) as its own. Without this, the Sampson error of any data vanishes as the query's focal length goes to 0.
   void boundUnknownFocalLengths();
 
   const Normalization& normalization() const { return normalization_; }
-  // Element i is correspondence indices2d2d[i] (indices2d3d[i]), normalized.
+  // In the order in which they were given, normalized.
   const std::vector<RayMatch>& rays() const { return rays_; }
   const std::vector<PointMatch>& points() const { return points_; }
-  // Where a ray is seen in its map image: coordinates for focal length 1 (in the tangent plane of the sphere, the origin, if
-  // there is no pinhole image), and that image's focal length, 0 if unknown.
-  struct MapImagePoint {
-    double x, y, focalLength;
-  };
+  using MapImagePoint = correspondences::MapImagePoint;
   const std::vector<MapImagePoint>& mapImagePoints() const { return mapImagePoints_; }
   RayArrays rayArrays() const;
   PointArrays pointArrays() const;
 
  private:
+  CorrespondenceArrays() = default;
   void normalize();
-  void fillRayColumns(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d);
+  void fillRayColumns(const std::vector<RigRay>& rays);
   void fillPointColumns();
 
   Normalization normalization_;

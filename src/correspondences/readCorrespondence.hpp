@@ -1,4 +1,5 @@
-// A correspondence of an adapter as plain data. Throws std::invalid_argument unless it is finite, with a ray of non-zero length.
+// The correspondences of an adapter as plain data. No other part of the library calls an adapter's getters, and each is called
+// once for a correspondence: what a getter answers a second time cannot matter.
 #pragma once
 
 #include "correspondences/Correspondence.hpp"
@@ -7,8 +8,26 @@
 namespace hybridgv {
 namespace correspondences {
 
-RayMatch readRay(const hybrid_pose::HybridAdapterBase& adapter, int index);
-PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index);
+struct Counts {
+  std::size_t rays, points;
+};
+
+// How many correspondences the adapter has; std::invalid_argument for more of a kind than an int can count.
+Counts readCounts(const hybrid_pose::HybridAdapterBase& adapter);
+
+// The correspondences with these indices, in their order, the rays' cameras numbered by centre.
+//
+// These functions throw std::invalid_argument, with the getter's name, for a number that is not finite, a ray of length zero, a
+// camRotation that is not a rotation, a negative focal length.
+Correspondences readCorrespondences(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rayIndices,
+                                    const std::vector<int>& pointIndices);
+// The same for a minimal sample: `count` correspondences of one kind, without an allocation.
+void readSampleRays(const hybrid_pose::HybridAdapterBase& adapter, const int* indices, int count, RayMatch* rays);
+void readSamplePoints(const hybrid_pose::HybridAdapterBase& adapter, const int* indices, int count, PointMatch* points);
+
+// Qualities of correspondences; std::invalid_argument if they are not finite.
+std::vector<double> readRayWeights(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
+std::vector<double> readPointWeights(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
 
 }  // namespace correspondences
 }  // namespace hybridgv

@@ -1,8 +1,11 @@
+#include "hybrid_pose/optimizeNonlinear.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include "CheckArguments.hpp"
-#include "hybridgv/hybrid_pose/methods.hpp"
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "correspondences/readCorrespondence.hpp"
 #include "robust/LeastSquares.hpp"
 
 namespace hybridgv {
@@ -26,14 +29,8 @@ static void setInformation(const robust::ParameterMatrix& normalized, double uni
           : std::numeric_limits<double>::infinity();
 }
 
-NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
-                                   const FocalPose& initial) {
-  if (indices.size() != 2) throwInvalid("indices", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
-  checkMultiIndices("indices", indices, {static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size())},
-                    {adapter.getNumberCorrespondences2d2d(), adapter.getNumberCorrespondences2d3d()});
-  checkPose("initial", initial);
-
-  const correspondences::CorrespondenceArrays arrays(adapter, indices[0], indices[1]);
+NonlinearResult optimizeNonlinear(const correspondences::Correspondences& correspondences, const FocalPose& initial) {
+  const correspondences::CorrespondenceArrays arrays(correspondences);
   const robust::LeastSquaresProblem problem = robust::makeProblem(arrays, {}, {});
   const correspondences::Normalization& normalization = arrays.normalization();
   const FocalPose start = normalization.apply(initial);
@@ -51,11 +48,22 @@ NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::
   return result;
 }
 
+NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
+                                   const FocalPose& initial) {
+  if (indices.size() != 2) throwInvalid("indices", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
+  checkMultiIndices("indices", indices, {static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size())},
+                    {counts.rays, counts.points});
+  checkPose("initial", initial);
+  return optimizeNonlinear(correspondences::readCorrespondences(adapter, indices[0], indices[1]), initial);
+}
+
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial) {
-  return optimize_nonlinear(adapter,
-                            {correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
-                             correspondences::allIndices(adapter.getNumberCorrespondences2d3d())},
-                            initial);
+  checkPose("initial", initial);
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
+  return optimizeNonlinear(correspondences::readCorrespondences(adapter, correspondences::allIndices(counts.rays),
+                                                                correspondences::allIndices(counts.points)),
+                           initial);
 }
 
 }  // namespace hybrid_pose

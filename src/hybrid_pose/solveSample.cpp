@@ -24,16 +24,6 @@ FocalPoses solve(const MinimalSolver& solver, const Sample& sample) {
   return solutions;
 }
 
-static void readRays(int count, const HybridAdapterBase& adapter, const std::vector<int>& indices, Sample& sample) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-    sample.rays[i] = correspondences::readRay(adapter, indices[i]);
-}
-
-static void readPoints(int count, const HybridAdapterBase& adapter, const std::vector<int>& indices, Sample& sample) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-    sample.points[i] = correspondences::readPoint(adapter, indices[i]);
-}
-
 [[noreturn]] static void refuseSeveralCameras(const SolverRows& problem, const Sample& sample,
                                               const std::vector<int>& rayIndices) {
   const auto differs = [&](const solvers::RayMatch& ray) { return ray.camera != sample.rays[0].camera; };
@@ -50,22 +40,23 @@ static FocalPoses solve(const SolverRows& problem, const Sample& sample, const s
 }
 
 FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
-  checkMultiIndices("indices", indices, {problem.rays(), problem.points()},
-                    {adapter.getNumberCorrespondences2d2d(), adapter.getNumberCorrespondences2d3d()});
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
+  checkMultiIndices("indices", indices, {problem.rays(), problem.points()}, {counts.rays, counts.points});
   Sample sample;
-  readRays(problem.rays(), adapter, indices[0], sample);
-  readPoints(problem.points(), adapter, indices[1], sample);
+  correspondences::readSampleRays(adapter, indices[0].data(), problem.rays(), sample.rays.data());
+  correspondences::readSamplePoints(adapter, indices[1].data(), problem.points(), sample.points.data());
   return solve(problem, sample, indices[0]);
 }
 
 FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<int>& indices) {
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
   Sample sample;
   if (problem.rays() > 0) {
-    checkIndices("indices", "", indices, problem.rays(), adapter.getNumberCorrespondences2d2d());
-    readRays(problem.rays(), adapter, indices, sample);
+    checkIndices("indices", "", indices, problem.rays(), counts.rays);
+    correspondences::readSampleRays(adapter, indices.data(), problem.rays(), sample.rays.data());
   } else {
-    checkIndices("indices", "", indices, problem.points(), adapter.getNumberCorrespondences2d3d());
-    readPoints(problem.points(), adapter, indices, sample);
+    checkIndices("indices", "", indices, problem.points(), counts.points);
+    correspondences::readSamplePoints(adapter, indices.data(), problem.points(), sample.points.data());
   }
   return solve(problem, sample, indices);
 }

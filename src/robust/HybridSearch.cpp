@@ -94,7 +94,7 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   ++worker.draws[chosen];
   const Strategy& strategy = choice_.strategies()[chosen];
   const SampleSize size = strategy.size();
-  const Sample sample = data_.sampler.draw(size, number, random);
+  const DrawnSample sample = data_.sampler.draw(size, number, random);
 
   correspondences::RayMatch rays[kMaxSampleSize];
   correspondences::PointMatch points[kMaxSampleSize];

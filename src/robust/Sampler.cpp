@@ -36,13 +36,25 @@ Sampler::Sampler(const std::vector<int>& cameraOfRay, std::vector<int> rayOrder,
   std::map<int, std::vector<int>> byCamera;
   for (const int ray : rayOrder_) byCamera[cameraOfRay[static_cast<std::size_t>(ray)]].push_back(ray);
   for (auto& entry : byCamera) raysOfCamera_.push_back(std::move(entry.second));
+  listCameras();
+}
+
+// All lists together have at most 1 + 1/2 + .. + 1/kMaxSampleSize entries for a ray.
+void Sampler::listCameras() {
+  for (std::size_t camera = 0; camera < raysOfCamera_.size(); ++camera) {
+    const int rays = size(raysOfCamera_[camera]);
+    for (int least = 1; least <= std::min(rays, kMaxSampleSize); ++least) {
+      CameraList& list = camerasWith_[static_cast<std::size_t>(least)];
+      list.cameras.push_back(static_cast<int>(camera));
+      list.raysUpTo.push_back(rays + (list.raysUpTo.empty() ? 0 : list.raysUpTo.back()));
+    }
+  }
 }
 
 bool Sampler::canDraw(const SampleSize& sample) const {
+  if (sample.rays > kMaxSampleSize || sample.points > kMaxSampleSize) return false;
   if (size(pointOrder_) < sample.points || size(rayOrder_) < sample.rays) return false;
-  if (sample.rayDraw != RayDraw::OneCamera) return true;
-  return std::any_of(raysOfCamera_.begin(), raysOfCamera_.end(),
-                     [&](const std::vector<int>& rays) { return size(rays) >= sample.rays; });
+  return sample.rayDraw != RayDraw::OneCamera || sample.rays == 0 || !camerasWith(sample.rays).cameras.empty();
 }
 
 int Sampler::poolSize(int available, int sampleSize, int number) const {
@@ -51,8 +63,8 @@ int Sampler::poolSize(int available, int sampleSize, int number) const {
   return std::clamp(static_cast<int>(std::ceil(pool)), std::min(sampleSize + 1, available), available);
 }
 
-Sample Sampler::draw(const SampleSize& wanted, int number, RandomStream& random) const {
-  Sample sample;
+DrawnSample Sampler::draw(const SampleSize& wanted, int number, RandomStream& random) const {
+  DrawnSample sample;
   const int total = wanted.rays + wanted.points;
   drawDifferent(pointOrder_, poolSize(size(pointOrder_), total, number), wanted.points, random, sample.points);
   switch (wanted.rayDraw) {
@@ -70,35 +82,29 @@ Sample Sampler::draw(const SampleSize& wanted, int number, RandomStream& random)
 }
 
 void Sampler::drawOneCamera(int count, int number, RandomStream& random, int* sample) const {
-  int total = 0;
-  for (const auto& rays : raysOfCamera_) total += size(rays) >= count ? size(rays) : 0;
-  int chosen = random.below(total);
-  for (const auto& rays : raysOfCamera_) {
-    if (size(rays) < count) continue;
-    if (chosen < size(rays)) return drawDifferent(rays, poolSize(size(rays), count + 1, number), count, random, sample);
-    chosen -= size(rays);
-  }
+  if (count == 0) return;
+  const CameraList& list = camerasWith(count);
+  const int chosen = random.below(list.raysUpTo.back());
+  const auto place = std::upper_bound(list.raysUpTo.begin(), list.raysUpTo.end(), chosen) - list.raysUpTo.begin();
+  const std::vector<int>& rays = raysOf(list.cameras[static_cast<std::size_t>(place)]);
+  drawDifferent(rays, poolSize(size(rays), count + 1, number), count, random, sample);
 }
 
 // Round by round: every camera that has rays left gives one, in the last round a random subset of them does.
 void Sampler::drawSpread(int count, int number, RandomStream& random, int* sample) const {
-  std::vector<int> eligible(raysOfCamera_.size());
-  std::iota(eligible.begin(), eligible.end(), 0);
-  std::vector<int> drawn(raysOfCamera_.size(), 0);
-  for (int round = 0, left = count; left > 0; ++round) {
-    const auto exhausted = [&](int camera) { return size(raysOfCamera_[static_cast<std::size_t>(camera)]) <= round; };
-    eligible.erase(std::remove_if(eligible.begin(), eligible.end(), exhausted), eligible.end());
-    int cameras[kMaxSampleSize];
-    const int taken = std::min(left, size(eligible));
-    drawDifferent(eligible, size(eligible), taken, random, cameras);
-    for (int k = 0; k < taken; ++k) ++drawn[static_cast<std::size_t>(cameras[k])];
-    left -= taken;
+  int drawn[kMaxSampleSize] = {};  // the camera of each ray
+  for (int round = 1, filled = 0; filled < count; ++round) {
+    const std::vector<int>& eligible = camerasWith(round).cameras;
+    const int taken = std::min(count - filled, size(eligible));
+    drawDifferent(eligible, size(eligible), taken, random, drawn + filled);
+    filled += taken;
   }
-  for (std::size_t camera = 0; camera < drawn.size(); ++camera) {
-    const std::vector<int>& rays = raysOfCamera_[camera];
-    const int pool = std::max(poolSize(size(rays), count + 1, number), drawn[camera]);
-    drawDifferent(rays, pool, drawn[camera], random, sample);
-    sample += drawn[camera];
+  for (int* end = drawn; end != drawn + count; ++end) std::rotate(std::upper_bound(drawn, end, *end), end, end + 1);
+  for (int first = 0; first < count;) {
+    const int rays = static_cast<int>(std::count(drawn + first, drawn + count, drawn[first]));
+    const std::vector<int>& list = raysOf(drawn[first]);
+    drawDifferent(list, std::max(poolSize(size(list), count + 1, number), rays), rays, random, sample + first);
+    first += rays;
   }
 }
 

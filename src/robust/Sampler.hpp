@@ -1,6 +1,7 @@
 // Random minimal samples, and the probabilities that they contain inliers only.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct SampleSize {
   RayDraw rayDraw;
 };
 
-struct Sample {
+// Which correspondences are in a sample.
+struct DrawnSample {
   int rays[kMaxSampleSize], points[kMaxSampleSize];
 };
 
@@ -38,8 +40,9 @@ class Sampler {
 
   // Whether there are enough correspondences.
   bool canDraw(const SampleSize& size) const;
-  // The `number`-th sample (1, 2, ..). Needs canDraw(size).
-  Sample draw(const SampleSize& size, int number, RandomStream& random) const;
+  // The `number`-th sample (1, 2, ..), in a time that does not depend on the numbers of correspondences and cameras (but for a
+  // logarithm), without an allocation. Needs canDraw(size).
+  DrawnSample draw(const SampleSize& size, int number, RandomStream& random) const;
   // Probability that a sample drawn from everything (no growing pools) has inliers only: exact.
   double allInlierProbability(const SampleSize& size, const InlierCounts& inliers) const;
 
@@ -53,6 +56,14 @@ class Sampler {
  private:
   static constexpr double kGrowth = 10000;
 
+  // Those cameras that have a certain number of rays at least, by increasing number, with the number of rays of all up to each.
+  struct CameraList {
+    std::vector<int> cameras, raysUpTo;
+  };
+  void listCameras();
+  const CameraList& camerasWith(int rays) const { return camerasWith_[static_cast<std::size_t>(rays)]; }
+  const std::vector<int>& raysOf(int camera) const { return raysOfCamera_[static_cast<std::size_t>(camera)]; }
+
   int poolSize(int available, int sampleSize, int number) const;
   void drawOneCamera(int count, int number, RandomStream& random, int* sample) const;
   void drawSpread(int count, int number, RandomStream& random, int* sample) const;
@@ -61,6 +72,7 @@ class Sampler {
 
   std::vector<int> rayOrder_, pointOrder_;
   std::vector<std::vector<int>> raysOfCamera_;
+  std::array<CameraList, kMaxSampleSize + 1> camerasWith_;  // by the least number of rays
   bool growingPools_;
 };
 

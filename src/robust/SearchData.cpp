@@ -1,12 +1,9 @@
 #include "robust/SearchData.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <utility>
 
-#include "CheckArguments.hpp"
-#include "hybridgv/detail/format.hpp"
+#include "correspondences/readCorrespondence.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -27,14 +24,9 @@ std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t s
 }
 
 // Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
-template <class Weight>
-std::vector<int> byQuality(const char* name, const std::vector<int>& indices, Weight weight) {
-  std::vector<int> order = correspondences::allIndices(indices.size());
-  const auto weightOf = [&](int i) { return weight(static_cast<std::size_t>(indices[static_cast<std::size_t>(i)])); };
-  for (const int i : order)
-    if (!std::isfinite(weightOf(i)))
-      throwInvalid("adapter." + std::string(name) + "(" + std::to_string(indices[static_cast<std::size_t>(i)]) + ")",
-                   "must be finite, is " + detail::format(weightOf(i)));
+std::vector<int> byQuality(const std::vector<double>& weights) {
+  std::vector<int> order = correspondences::allIndices(weights.size());
+  const auto weightOf = [&](int i) { return weights[static_cast<std::size_t>(i)]; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
   return order;
 }
@@ -45,8 +37,8 @@ Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const Corresp
   for (const correspondences::RayMatch& ray : arrays.rays()) cameras.push_back(ray.camera);
   if (sampling == sac::Sampling::Uniform)
     return {cameras, correspondences::allIndices(rayIndices.size()), correspondences::allIndices(pointIndices.size()), false};
-  std::vector<int> rays = byQuality("getWeight2d2d", rayIndices, [&](std::size_t i) { return adapter.getWeight2d2d(i); });
-  std::vector<int> points = byQuality("getWeight2d3d", pointIndices, [&](std::size_t i) { return adapter.getWeight2d3d(i); });
+  std::vector<int> rays = byQuality(correspondences::readRayWeights(adapter, rayIndices));
+  std::vector<int> points = byQuality(correspondences::readPointWeights(adapter, pointIndices));
   const bool weightsDiffer = !std::is_sorted(rays.begin(), rays.end()) || !std::is_sorted(points.begin(), points.end());
   return {cameras, std::move(rays), std::move(points), weightsDiffer};
 }
@@ -61,8 +53,9 @@ CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, c
 }  // namespace
 
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options) {
-  std::vector<int> rays = shuffled(adapter.getNumberCorrespondences2d2d(), options.seed, kRayOrderStream);
-  std::vector<int> points = shuffled(adapter.getNumberCorrespondences2d3d(), options.seed, kPointOrderStream);
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
+  std::vector<int> rays = shuffled(counts.rays, options.seed, kRayOrderStream);
+  std::vector<int> points = shuffled(counts.points, options.seed, kPointOrderStream);
   CorrespondenceArrays arrays = readArrays(adapter, rays, points);
   Sampler sampler = makeSampler(adapter, arrays, rays, points, options.sampling);
   return {std::move(rays), std::move(points), std::move(arrays), std::move(sampler)};

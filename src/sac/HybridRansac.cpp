@@ -62,11 +62,11 @@ HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, c
   const auto start = std::chrono::steady_clock::now();
   options.check();
   HybridRansacResult result;
-  result.inliers2d2d.resize(adapter.getNumberCorrespondences2d2d());
-  result.inliers2d3d.resize(adapter.getNumberCorrespondences2d3d());
   result.covariance.fill(std::numeric_limits<double>::infinity());
 
   robust::HybridSearch search(adapter, options, start);
+  result.inliers2d2d.resize(search.data().rayIndices.size());
+  result.inliers2d3d.resize(search.data().pointIndices.size());
   if (!search.canStart()) {
     result.failureReason = FailureReason::TooFewCorrespondences;
   } else {

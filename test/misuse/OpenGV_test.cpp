@@ -117,14 +117,14 @@ TEST(Misuse, ProblemsRefuseWrongIndices) {
   FocalPose model;
   std::vector<double> distances;
   std::vector<std::vector<double>> multiDistances;
-  const auto random = [] { return 0; };
+  const sac_problems::hybrid_pose::CorrespondencePool pool = core.makePool({0, 12});
 
   for (const int index : {-1, std::numeric_limits<int>::min(), 20, std::numeric_limits<int>::max()}) {
     const std::string wrong = std::to_string(index), text = "index " + wrong;
     expectRefused(wrong, text, [&] { core.split({0, index}); });
-    expectRefused(wrong, text, [&] { core.computeModel({{0}, {0, 1, 2}}, {index}, model); });
+    expectRefused(wrong, text, [&] { core.makePool({index}); });
     expectRefused(wrong, text, [&] { core.distances(model, {index}, distances); });
-    expectRefused(wrong, text, [&] { core.countWithin(model, {index}, 1); });
+    expectRefused(wrong, text, [&] { core.isFlatSampleGood({0, 12, 13, index}); });
     expectRefused(wrong, text, [&] { flat.isSampleGood({0, 12, 13, index}); });
     expectRefused(wrong, text, [&] { flat.computeModelCoefficients({0, 12, 13, index}, model); });
     expectRefused(wrong, text, [&] { flat.getSelectedDistancesToModel(model, {index}, distances); });
@@ -138,9 +138,8 @@ TEST(Misuse, ProblemsRefuseWrongIndices) {
       const std::string wrong = std::to_string(index) + " in list " + std::to_string(list),
                         text = "index " + std::to_string(index);
       expectRefused(wrong, text, [&] { core.join(indices); });
-      expectRefused(wrong, text, [&] { core.drawSample(indices, false, random); });
       expectRefused(wrong, text, [&] { core.isSampleGood(indices); });
-      expectRefused(wrong, text, [&] { core.computeModel(indices, {0}, model); });
+      expectRefused(wrong, text, [&] { core.computeModel(indices, pool, model); });
       expectRefused(wrong, text, [&] { core.optimize(indices, model); });
       expectRefused(wrong, text, [&] { multi.isSampleGood(indices); });
       expectRefused(wrong, text, [&] { multi.computeModelCoefficients(indices, model); });
@@ -150,21 +149,20 @@ TEST(Misuse, ProblemsRefuseWrongIndices) {
   for (const std::vector<std::vector<int>>& lists : {std::vector<std::vector<int>>{}, {{0}}, {{0}, {0, 1, 2}, {}}}) {
     const std::string wrong = std::to_string(lists.size()) + " lists";
     expectRefused(wrong, "two lists", [&] { core.join(lists); });
-    expectRefused(wrong, "two lists", [&] { core.drawSample(lists, false, random); });
     expectRefused(wrong, "two lists", [&] { core.isSampleGood(lists); });
-    expectRefused(wrong, "two lists", [&] { core.computeModel(lists, {0}, model); });
+    expectRefused(wrong, "two lists", [&] { core.computeModel(lists, pool, model); });
     expectRefused(wrong, "two lists", [&] { core.optimize(lists, model); });
     expectRefused(wrong, "two lists", [&] { multi.getSelectedDistancesToModel(model, lists, multiDistances); });
   }
   for (const std::vector<std::vector<int>>& sizes :
        {std::vector<std::vector<int>>{{}, {}}, {{}, {0, 1, 2}}, {{0}, {0, 1}}, {{0, 1}, {0, 1, 2}}, {{0}, {0, 1, 2, 3}}}) {
     expectRefused("sample size", "sample", [&] { core.isSampleGood(sizes); });
-    expectRefused("sample size", "sample", [&] { core.computeModel(sizes, {0}, model); });
+    expectRefused("sample size", "sample", [&] { core.computeModel(sizes, pool, model); });
   }
   expectRefused("repeated", "repeated", [&] { core.optimize({{0, 0}, {1}}, model); });
   // A repeated correspondence in a sample is a degenerate sample, which a loop may draw.
   EXPECT_FALSE(core.isSampleGood({{0}, {0, 1, 1}}));
-  EXPECT_FALSE(core.computeModel({{0}, {0, 1, 1}}, {0}, model));
+  EXPECT_FALSE(core.computeModel({{0}, {0, 1, 1}}, pool, model));
 }
 
 TEST(Misuse, NothingAgreesWithAModelThatIsNotFinite) {
@@ -175,12 +173,12 @@ TEST(Misuse, NothingAgreesWithAModelThatIsNotFinite) {
     core.distances(wrong.pose, {0, 12}, distances);
     for (const double distance : distances) EXPECT_TRUE(distance >= 0 && distance <= core.kMaxDistance) << wrong.name;
     if (!wrong.pose.rotation.allFinite() || !wrong.pose.position.allFinite() || !std::isfinite(wrong.pose.focalLength)) {
-      EXPECT_EQ(core.countWithin(wrong.pose, {0, 12}, 1), 0) << wrong.name;
+      EXPECT_EQ(core.countWithin(wrong.pose, core.makePool({0, 12}), 1), 0) << wrong.name;
     }
     expectRefused(wrong.name, "model", [&] { core.optimize({{0}, {1}}, wrong.pose); });
   }
   for (const double value : {kNaN, -kInfinite, -1.0})
-    expectRefused(std::to_string(value), "threshold", [&] { core.countWithin(FocalPose(), {0, 12}, value); });
+    expectRefused(std::to_string(value), "threshold", [&] { core.countWithin(FocalPose(), core.makePool({0, 12}), value); });
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "HybridScene.hpp"
-#include "robust/SampleCheck.hpp"
 
 namespace hybridgv {
 namespace {
@@ -78,24 +77,6 @@ TEST(PoseScorer, SequentialTestKeepsGoodPosesAndGivesUpChanceOnesEarly) {
   }
   EXPECT_GE(goodKept, count * (1 - 2 * kFalseRejection));
   EXPECT_LE(badKept, 0.05 * count);
-}
-
-TEST(SampleCheck, RecognisesDegenerateSamples) {
-  test::Random random(test::testSeed(), 63);
-  for (int i = 0; i < 50; ++i) {
-    const test::MinimalProblem good = test::makeMinimalProblem(random, {2, 1}, 4);
-    const auto check = [](const test::MinimalProblem& p) { return isDegenerate(p.rays.data(), 3, p.points.data(), 4); };
-    EXPECT_FALSE(check(good));
-    test::MinimalProblem collinear = good, coincident = good, through = good, twice = good;
-    collinear.points[2].point = 0.3 * good.points[0].point + 0.7 * good.points[1].point;
-    EXPECT_TRUE(check(collinear));
-    coincident.points[3].u = good.points[1].u, coincident.points[3].v = good.points[1].v;
-    EXPECT_TRUE(check(coincident));
-    through.rays[0].direction = (good.points[2].point - good.rays[0].centre).normalized();
-    EXPECT_TRUE(check(through));
-    twice.rays[1].direction = good.rays[0].direction;
-    EXPECT_TRUE(check(twice));
-  }
 }
 
 }  // namespace

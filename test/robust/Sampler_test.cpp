@@ -46,7 +46,7 @@ TEST(Sampler, DrawsDifferentCorrespondences) {
   for (const RayDraw rayDraw : {RayDraw::Uniform, RayDraw::OneCamera, RayDraw::Spread})
     for (int i = 0; i < 500; ++i) {
       RandomStream random(1, static_cast<std::uint64_t>(i));
-      const Sample sample = sampler.draw({5, 4, rayDraw}, 1, random);
+      const DrawnSample sample = sampler.draw({5, 4, rayDraw}, 1, random);
       const std::set<int> rays(sample.rays, sample.rays + 5), points(sample.points, sample.points + 4);
       EXPECT_EQ(rays.size(), 5u);
       EXPECT_EQ(points.size(), 4u);
@@ -54,7 +54,7 @@ TEST(Sampler, DrawsDifferentCorrespondences) {
     }
 }
 
-std::map<int, int> raysPerCamera(const std::vector<int>& cameraOfRay, const Sample& sample, int count) {
+std::map<int, int> raysPerCamera(const std::vector<int>& cameraOfRay, const DrawnSample& sample, int count) {
   std::map<int, int> result;
   for (int k = 0; k < count; ++k) ++result[cameraOfRay[static_cast<std::size_t>(sample.rays[k])]];
   return result;
@@ -90,6 +90,37 @@ TEST(Sampler, SpreadDrawUsesAsManyCamerasAsPossible) {
       EXPECT_LE(most - least, 1);
     }
   }
+}
+
+// With 35 subsets of 3 out of 7 and 35000 draws, each is expected 1000 times, with a standard deviation of 32.
+TEST(Sampler, EverySubsetIsEquallyLikely) {
+  const Sampler sampler = makeSampler({7}, 7);
+  std::map<std::set<int>, int> points, rays;
+  for (int i = 0; i < 35000; ++i) {
+    RandomStream random(test::testSeed(), static_cast<std::uint64_t>(i));
+    const DrawnSample sample = sampler.draw({3, 3, RayDraw::Uniform}, 1, random);
+    ++points[std::set<int>(sample.points, sample.points + 3)];
+    ++rays[std::set<int>(sample.rays, sample.rays + 3)];
+  }
+  ASSERT_EQ(points.size(), 35u);
+  ASSERT_EQ(rays.size(), 35u);
+  for (const auto& entry : points) EXPECT_NEAR(entry.second, 1000, 160);
+  for (const auto& entry : rays) EXPECT_NEAR(entry.second, 1000, 160);
+}
+
+// Samples and draws of any size take no more time with many cameras than with few: a hundred thousand samples from as many cameras
+// would take minutes if each looked at all of them.
+TEST(Sampler, DrawsAsFastFromManyCameras) {
+  std::vector<int> raysOfCamera(100000, 1);
+  raysOfCamera[500] = 6;
+  const Sampler sampler = makeSampler(raysOfCamera, 1);
+  for (const RayDraw rayDraw : {RayDraw::OneCamera, RayDraw::Spread})
+    for (int i = 0; i < 100000; ++i) {
+      RandomStream random(7, static_cast<std::uint64_t>(i));
+      const DrawnSample sample = sampler.draw({5, 1, rayDraw}, 1, random);
+      const bool ofCamera500 = sample.rays[0] >= 500 && sample.rays[4] < 506;
+      ASSERT_TRUE(ofCamera500 || rayDraw == RayDraw::Spread);
+    }
 }
 
 TEST(Sampler, NeedsEnoughData) {
@@ -132,7 +163,7 @@ TEST(Sampler, AllInlierProbabilityIsTheFrequencyOfSuchSamples) {
       int good = 0;
       for (int i = 0; i < count; ++i) {
         RandomStream random(test::testSeed(), static_cast<std::uint64_t>(i));
-        const Sample sample = sampler.draw(size, 1, random);
+        const DrawnSample sample = sampler.draw(size, 1, random);
         bool all = true;
         for (int k = 0; k < size.rays; ++k) all = all && inlierRays[static_cast<std::size_t>(sample.rays[k])];
         for (int k = 0; k < size.points; ++k) all = all && inlierPoints[static_cast<std::size_t>(sample.points[k])];
@@ -150,8 +181,8 @@ TEST(Sampler, GrowingPoolsStartWithTheFirstAndReachAll) {
   int largestEarly = 0, largestLate = 0;
   for (int i = 0; i < 200; ++i) {
     RandomStream early(5, static_cast<std::uint64_t>(i)), late(6, static_cast<std::uint64_t>(i));
-    const Sample first = sampler.draw({1, 3, RayDraw::Uniform}, 1, early);
-    const Sample last = sampler.draw({1, 3, RayDraw::Uniform}, 10000, late);
+    const DrawnSample first = sampler.draw({1, 3, RayDraw::Uniform}, 1, early);
+    const DrawnSample last = sampler.draw({1, 3, RayDraw::Uniform}, 10000, late);
     largestEarly = std::max({largestEarly, first.points[0], first.points[1], first.points[2], first.rays[0]});
     largestLate = std::max({largestLate, last.points[0], last.points[1], last.points[2], last.rays[0]});
   }

@@ -184,6 +184,61 @@ TEST_F(SacProblem, SamplesComeFromTheIndicesThatWereSet) {
   }
 }
 
+// OpenGV hands out the list itself: a user may write into it.
+TEST_F(SacProblem, ChangesOfTheListInPlaceAreNoticed) {
+  int unused = 0;
+  HybridPoseSacProblem problem = flat(Solver::H13f);
+  MultiHybridPoseSacProblem multiProblem = multi(Solver::H13f);
+  const auto expectDrawnFrom = [&](const std::set<int>& rays, const std::set<int>& points) {
+    for (int i = 0; i < 200; ++i) {
+      std::vector<int> sample;
+      problem.getSamples(unused, sample);
+      std::vector<std::vector<int>> multiSample;
+      multiProblem.getSamples(unused, multiSample);
+      for (const int index : sample) EXPECT_TRUE(index < 24 ? rays.count(index) : points.count(index - 24)) << index;
+      for (const int ray : multiSample[0]) EXPECT_TRUE(rays.count(ray)) << ray;
+      for (const int point : multiSample[1]) EXPECT_TRUE(points.count(point)) << point;
+    }
+    const int count = static_cast<int>(rays.size() + points.size());
+    EXPECT_EQ(problem.countWithinDistance(data_.truth, 1.0), count);
+    EXPECT_EQ(multiProblem.countWithinDistance(data_.truth, 1.0), count);
+  };
+  problem.setIndices({0, 1, 24, 25, 26, 27, 28});
+  multiProblem.setIndices({{0, 1}, {0, 1, 2, 3, 4}});
+  expectDrawnFrom({0, 1}, {0, 1, 2, 3, 4});
+  // Entries written over, one kind by the other.
+  for (int& index : *problem.getIndices())
+    if (index == 24) index = 7;
+  (*multiProblem.getIndices())[0] = {0, 1, 7};
+  (*multiProblem.getIndices())[1] = {1, 2, 3, 4};
+  expectDrawnFrom({0, 1, 7}, {1, 2, 3, 4});
+  // One appended, one removed.
+  problem.getIndices()->push_back(40);
+  problem.getIndices()->erase(problem.getIndices()->begin());
+  (*multiProblem.getIndices())[0].erase((*multiProblem.getIndices())[0].begin());
+  (*multiProblem.getIndices())[1].push_back(16);
+  expectDrawnFrom({1, 7}, {1, 2, 3, 4, 16});
+}
+
+// The pool's own arrays are a part of all: the same errors.
+TEST_F(SacProblem, APartOfTheCorrespondencesIsCountedAsInTheWhole) {
+  test::addNoise(random_, 3, data_);
+  const NoncentralHybridAdapter adapter = test::makeAdapter(data_);
+  HybridPoseSacProblem problem(adapter, Solver::H13f, kReprojectionPx, kEpipolarPx);
+  std::vector<double> all, part;
+  problem.getDistancesToModel(data_.truth, all);
+  const std::vector<int> list{43, 5, 24, 24, 0, 30, 5, 23};
+  problem.setIndices(list);
+  problem.getDistancesToModel(data_.truth, part);
+  int inliers = 0;
+  ASSERT_EQ(part.size(), list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(part[i], all[static_cast<std::size_t>(list[i])]);
+    inliers += part[i] < 1;
+  }
+  EXPECT_EQ(problem.countWithinDistance(data_.truth, 1.0), inliers);
+}
+
 TEST_F(SacProblem, TooFewIndicesGiveAnEmptySample) {
   int iterations = 0;
   HybridPoseSacProblem problem = flat(Solver::H13f);

@@ -6,19 +6,18 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "math/RandomStream.hpp"
+
 namespace hybridgv {
 namespace test {
 
-// splitmix64: every (seed, stream) gives an independent sequence.
-class Random {
+// Every (seed, stream) gives an independent sequence.
+class Random : public math::SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : state_(mix(seed + 0x9e3779b97f4a7c15ULL) ^ mix(~stream)) {}
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : SplitMix64(mix(seed + kStep) ^ mix(~stream)) {}
 
-  std::uint64_t next() { return mix(state_ += 0x9e3779b97f4a7c15ULL); }
-  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
   // 0 .. count-1
-  int index(int count) { return static_cast<int>(next() % static_cast<std::uint64_t>(count)); }
+  int index(int count) { return below(count); }
 
   double normal() {  // Box-Muller, one of the pair
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
@@ -42,14 +41,6 @@ class Random {
   }
 
   static constexpr double kPi = 3.14159265358979323846;
-
- private:
-  static std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
 };
 
 // The seed of the random tests; the environment variable HYBRIDGV_TEST_SEED replaces it to try other instances.

@@ -31,7 +31,8 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
   virtual Eigen::Vector3d getImagePoint2d2d(std::size_t index) const = 0;
   /// Viewing direction of 2D-2D correspondence `index` in the frame of its rig camera; any positive length.
   virtual Eigen::Vector3d getBearingVector(std::size_t index) const = 0;
-  /// The rig camera of 2D-2D correspondence `index`. Equal indices mean equal centres.
+  /// The rig camera of 2D-2D correspondence `index`: any number, only the order matters. Which rays share a camera is seen from
+  /// their centres: those with equal getCamOffset do.
   virtual int getCamIndex(std::size_t index) const = 0;
   /// Centre of the rig camera of 2D-2D correspondence `index`, in the rig's frame.
   virtual Eigen::Vector3d getCamOffset(std::size_t index) const = 0;

@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "CheckArguments.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
+#include "correspondences/readCorrespondence.hpp"
+#include "hybrid_pose/optimizeNonlinear.hpp"
 #include "hybrid_pose/solveSample.hpp"
 #include "hybridgv/detail/format.hpp"
-#include "hybridgv/hybrid_pose/methods.hpp"
+#include "math/RandomStream.hpp"
+#include "robust/SampleCheck.hpp"
+#include "robust/Sampler.hpp"
 #include "robust/kernels/Kernels.hpp"
 #include "robust/toPlain.hpp"
-#include "sac_problems/hybrid_pose/CopiedCorrespondences.hpp"
-#include "sac_problems/hybrid_pose/drawSample.hpp"
-#include "sac_problems/hybrid_pose/isDegenerate.hpp"
 
 namespace hybridgv {
 namespace sac_problems {
@@ -22,7 +25,9 @@ namespace hybrid_pose {
 
 namespace {
 
+using correspondences::CorrespondenceArrays;
 using hybridgv::hybrid_pose::Sample;
+using robust::Sampler;
 
 void checkCount(const char* what, int available, int needed, const char* solver) {
   if (available < needed)
@@ -30,10 +35,22 @@ void checkCount(const char* what, int available, int needed, const char* solver)
                                 std::to_string(needed));
 }
 
+void checkRange(const char* name, int index, int count) {
+  if (index < 0 || index >= count)
+    throwInvalid(name, "index " + std::to_string(index) + " is outside the " + std::to_string(count) + " correspondences");
+}
+
 void checkRanges(const char* name, const std::vector<int>& indices, int count) {
-  for (int i : indices)
-    if (i < 0 || i >= count)
-      throwInvalid(name, "index " + std::to_string(i) + " is outside the " + std::to_string(count) + " correspondences");
+  for (const int index : indices) checkRange(name, index, count);
+}
+
+correspondences::Correspondences readAll(const hybridgv::hybrid_pose::HybridAdapterBase& adapter) {
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
+  if (counts.points > static_cast<std::size_t>(std::numeric_limits<int>::max()) - counts.rays)
+    throwInvalid("adapter",
+                 "flat indices count at most 2^31 - 1 correspondences, it has " + std::to_string(counts.rays + counts.points));
+  return correspondences::readCorrespondences(adapter, correspondences::allIndices(counts.rays),
+                                              correspondences::allIndices(counts.points));
 }
 
 }  // namespace
@@ -41,13 +58,11 @@ void checkRanges(const char* name, const std::vector<int>& indices, int count) {
 struct HybridProblemCore::Data {
   Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx)
       : problem(solvers::rowsOf(id)),
-        correspondences(adapter),
-        arrays(correspondences, correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
-               correspondences::allIndices(adapter.getNumberCorrespondences2d3d())),
+        correspondences(readAll(adapter)),
+        arrays(correspondences),
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx) {
     arrays.boundUnknownFocalLengths();
-    for (std::size_t i = 0; i < arrays.rays().size(); ++i) cameras.push_back(correspondences.getCamIndex(i));
     checkPositive("maxReprojectionErrorPx", reprojectionPx);
     checkPositive("maxEpipolarErrorPx", epipolarPx);
     checkCount("2D-2D", count2d2d(), problem.rays(), problem.name());
@@ -58,17 +73,48 @@ struct HybridProblemCore::Data {
   int count2d3d() const { return static_cast<int>(arrays.points().size()); }
   int count() const { return count2d2d() + count2d3d(); }
 
-  // (error / threshold)^2 of all correspondences at their flat indices; infinite where the error is.
-  void computeSquaredDistances(const FocalPose& pose, std::vector<double>& result) const {
-    const correspondences::RayArrays rays = arrays.rayArrays();
-    const correspondences::PointArrays points = arrays.pointArrays();
+  robust::PlainPose toPlain(const FocalPose& pose) const { return robust::toPlain(arrays.normalization().apply(pose)); }
+
+  // Distances of correspondences to a pose, rays first.
+  void computeDistances(const CorrespondenceArrays& of, const FocalPose& pose, std::vector<double>& result) const {
+    const correspondences::RayArrays rays = of.rayArrays();
+    const correspondences::PointArrays points = of.pointArrays();
+    const robust::PlainPose plain = toPlain(pose);
     result.resize(rays.size + points.size + correspondences::kPadding);
-    double* const ofPoints = result.data() + rays.size;
-    const robust::PlainPose plain = robust::toPlain(arrays.normalization().apply(pose));
     robust::kernels().squaredRayErrors(rays, plain, result.data());  // their padding is overwritten by the points
-    robust::kernels().squaredPointErrors(points, plain, ofPoints);
-    for (std::size_t i = 0; i < rays.size; ++i) result[i] /= maxEpipolarErrorPx * maxEpipolarErrorPx;
-    for (std::size_t i = 0; i < points.size; ++i) ofPoints[i] /= maxReprojectionErrorPx * maxReprojectionErrorPx;
+    robust::kernels().squaredPointErrors(points, plain, result.data() + rays.size);
+    result.resize(rays.size + points.size);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const double threshold = i < rays.size ? maxEpipolarErrorPx : maxReprojectionErrorPx;
+      const double distance = std::sqrt(result[i] / (threshold * threshold));
+      result[i] = distance < kMaxDistance ? distance : kMaxDistance;  // the comparison is false for NaN
+    }
+  }
+
+  // The score and the inliers of a pose, with both thresholds multiplied by `factor`.
+  robust::Score score(const CorrespondenceArrays& of, const FocalPose& pose, double factor) const {
+    const correspondences::RayArrays rays = of.rayArrays();
+    const correspondences::PointArrays points = of.pointArrays();
+    const robust::PlainPose plain = toPlain(pose);
+    const double maxRay = factor * maxEpipolarErrorPx, maxPoint = factor * maxReprojectionErrorPx;
+    const robust::Score ofRays = robust::kernels().scoreRays(rays, plain, maxRay * maxRay, 0, rays.size);
+    const robust::Score ofPoints = robust::kernels().scorePoints(points, plain, maxPoint * maxPoint, 0, points.size);
+    return {ofRays.msac + ofPoints.msac, ofRays.inliers + ofPoints.inliers};
+  }
+
+  // Whether the list is 0, 1, .. : all correspondences in their order.
+  bool isAll(const std::vector<int>& flat) const {
+    if (flat.size() != static_cast<std::size_t>(count())) return false;
+    for (std::size_t i = 0; i < flat.size(); ++i)
+      if (flat[i] != static_cast<int>(i)) return false;
+    return true;
+  }
+
+  // What to draw: from any cameras where none has enough rays.
+  robust::SampleSize sampleSize(const Sampler& sampler, bool raysFromOneCamera) const {
+    const robust::SampleSize ofOneCamera{problem.rays(), problem.points(), solvers::RayDraw::OneCamera};
+    if (raysFromOneCamera && sampler.canDraw(ofOneCamera)) return ofOneCamera;
+    return {problem.rays(), problem.points(), solvers::RayDraw::Uniform};
   }
 
   void checkPool(const char* name, const MultiIndices& indices) const {
@@ -77,30 +123,78 @@ struct HybridProblemCore::Data {
     checkRanges(name, indices[1], count2d3d());
   }
 
+  void checkSampleSize(std::size_t rays, std::size_t points) const {
+    if (rays != static_cast<std::size_t>(problem.rays()) || points != static_cast<std::size_t>(problem.points()))
+      throwInvalid("sample", std::string(problem.name()) + " needs " + std::to_string(problem.rays()) + " 2D-2D and " +
+                                 std::to_string(problem.points()) + " 2D-3D correspondences, got " + std::to_string(rays) +
+                                 " and " + std::to_string(points));
+  }
+
   Sample read(const MultiIndices& sample) const {
     checkPool("sample", sample);
-    const auto rays = static_cast<std::size_t>(problem.rays()), points = static_cast<std::size_t>(problem.points());
-    if (sample[0].size() != rays || sample[1].size() != points)
-      throwInvalid("sample", std::string(problem.name()) + " needs " + std::to_string(rays) + " 2D-2D and " +
-                                 std::to_string(points) + " 2D-3D correspondences, got " + std::to_string(sample[0].size()) +
-                                 " and " + std::to_string(sample[1].size()));
+    checkSampleSize(sample[0].size(), sample[1].size());
     Sample result;
-    for (std::size_t i = 0; i < rays; ++i) result.rays[i] = correspondences.ray(static_cast<std::size_t>(sample[0][i]));
-    for (std::size_t i = 0; i < points; ++i)
-      result.points[i] = correspondences.pointMatch(static_cast<std::size_t>(sample[1][i]));
+    for (std::size_t i = 0; i < sample[0].size(); ++i)
+      result.rays[i] = correspondences.rays[static_cast<std::size_t>(sample[0][i])].match;
+    for (std::size_t i = 0; i < sample[1].size(); ++i)
+      result.points[i] = correspondences.points[static_cast<std::size_t>(sample[1][i])];
+    return result;
+  }
+
+  Sample readFlat(const std::vector<int>& sample) const {
+    checkRanges("sample", sample, count());
+    const auto isRay = [this](int index) { return index < count2d2d(); };
+    const auto rays = static_cast<std::size_t>(std::count_if(sample.begin(), sample.end(), isRay));
+    checkSampleSize(rays, sample.size() - rays);
+    Sample result;
+    std::size_t ray = 0, point = 0;
+    for (const int index : sample)
+      if (isRay(index))
+        result.rays[ray++] = correspondences.rays[static_cast<std::size_t>(index)].match;
+      else
+        result.points[point++] = correspondences.points[static_cast<std::size_t>(index - count2d2d())];
     return result;
   }
 
   bool isGood(const Sample& sample) const {
-    return !isDegenerate(sample.rays.data(), problem.rays(), sample.points.data(), problem.points());
+    return !robust::isDegenerate(sample.rays.data(), problem.rays(), sample.points.data(), problem.points());
   }
 
   const solvers::SolverRows problem;
-  const CopiedCorrespondences correspondences;
-  correspondences::CorrespondenceArrays arrays;
-  std::vector<int> cameras;  // of the 2D-2D correspondences
+  const correspondences::Correspondences correspondences;
+  CorrespondenceArrays arrays;
   const double maxReprojectionErrorPx, maxEpipolarErrorPx;
 };
+
+// The sampler draws places in the list.
+struct CorrespondencePool::Data {
+  Data(const std::vector<int>& flat, const MultiIndices& lists, const CorrespondenceArrays& all, bool isAll)
+      : indices(flat), sampler(makeSampler(flat, all)) {
+    if (!isAll) part = all.subset(lists[0], lists[1]);
+  }
+
+  static Sampler makeSampler(const std::vector<int>& flat, const CorrespondenceArrays& all) {
+    std::vector<int> cameras(flat.size()), rays, points;
+    for (std::size_t place = 0; place < flat.size(); ++place) {
+      const auto index = static_cast<std::size_t>(flat[place]);
+      const bool isRay = index < all.rays().size();
+      if (isRay) cameras[place] = all.rays()[index].camera;
+      (isRay ? rays : points).push_back(static_cast<int>(place));
+    }
+    return {cameras, std::move(rays), std::move(points), false};
+  }
+
+  // What the pool is scored with.
+  const CorrespondenceArrays& arrays(const CorrespondenceArrays& all) const { return part ? *part : all; }
+
+  std::vector<int> indices;
+  Sampler sampler;
+  std::optional<CorrespondenceArrays> part;  // none: all correspondences in their order
+};
+
+CorrespondencePool::CorrespondencePool(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+const std::vector<int>& CorrespondencePool::indices() const { return data_->indices; }
 
 HybridProblemCore::HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver,
                                      double maxReprojectionErrorPx, double maxEpipolarErrorPx)
@@ -136,79 +230,68 @@ std::vector<int> HybridProblemCore::join(const MultiIndices& indices) const {
   return result;
 }
 
-MultiIndices HybridProblemCore::drawSample(const MultiIndices& pool, bool raysFromOneCamera,
-                                           const std::function<int()>& random) const {
-  data_->checkPool("indices", pool);
-  const int rays = data_->problem.rays(), points = data_->problem.points();
-  if (pool[0].size() < static_cast<std::size_t>(rays) || pool[1].size() < static_cast<std::size_t>(points)) return {};
-  MultiIndices sample(2);
-  sample[0] = raysFromOneCamera && rays > 1 ? drawSubset(drawCamera(pool[0], data_->cameras, rays, random), rays, random)
-                                            : drawSubset(pool[0], rays, random);
-  sample[1] = drawSubset(pool[1], points, random);
-  return sample;
+CorrespondencePool HybridProblemCore::makePool(const std::vector<int>& flat) const {
+  return CorrespondencePool(
+      std::make_shared<const CorrespondencePool::Data>(flat, split(flat), data_->arrays, data_->isAll(flat)));
+}
+
+void HybridProblemCore::drawSample(const CorrespondencePool& pool, bool raysFromOneCamera, const std::function<int()>& random,
+                                   std::vector<int>& places) const {
+  places.clear();
+  const Sampler& sampler = pool.data_->sampler;
+  const robust::SampleSize size = data_->sampleSize(sampler, raysFromOneCamera);
+  if (!sampler.canDraw(size)) return;
+  const auto high = static_cast<std::uint64_t>(random()), low = static_cast<std::uint64_t>(random());
+  math::RandomStream stream(high << 31 | low, 0);
+  const robust::DrawnSample sample = sampler.draw(size, 1, stream);
+  places.insert(places.end(), sample.rays, sample.rays + size.rays);
+  places.insert(places.end(), sample.points, sample.points + size.points);
 }
 
 bool HybridProblemCore::isSampleGood(const MultiIndices& sample) const { return data_->isGood(data_->read(sample)); }
 
-bool HybridProblemCore::computeModel(const MultiIndices& sample, const std::vector<int>& pool, FocalPose& model) const {
+bool HybridProblemCore::isFlatSampleGood(const std::vector<int>& sample) const { return data_->isGood(data_->readFlat(sample)); }
+
+bool HybridProblemCore::computeModel(const MultiIndices& sample, const CorrespondencePool& pool, FocalPose& model) const {
   const Sample correspondences = data_->read(sample);
-  checkRanges("indices", pool, data_->count());
   if (!data_->isGood(correspondences)) return false;
   const solvers::MinimalSolver* const solver = data_->problem.forSample(correspondences.rays.data());
   if (!solver) return false;
-
-  std::vector<double> squaredDistances;
-  double best = std::numeric_limits<double>::infinity();
+  double best = -1;  // less than any score
   for (const FocalPose& solution : hybridgv::hybrid_pose::solve(*solver, correspondences)) {
-    data_->computeSquaredDistances(solution, squaredDistances);
-    double cost = 0;
-    for (int i : pool) {
-      const double x = squaredDistances[static_cast<std::size_t>(i)];
-      cost += x < 1 ? x : 1;
-    }
-    if (cost >= best) continue;
-    best = cost;
+    const double score = data_->score(pool.data_->arrays(data_->arrays), solution, 1).msac;
+    if (!(score > best)) continue;
+    best = score;
     model = solution;
   }
-  return std::isfinite(best);
+  return best >= 0;
 }
 
 void HybridProblemCore::distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const {
-  checkRanges("indices", flat, data_->count());
-  std::vector<double> squaredDistances;
-  data_->computeSquaredDistances(model, squaredDistances);
+  if (data_->isAll(flat)) return data_->computeDistances(data_->arrays, model, result);
+  const MultiIndices lists = split(flat);
+  std::vector<double> raysFirst;
+  data_->computeDistances(data_->arrays.subset(lists[0], lists[1]), model, raysFirst);
+  std::size_t ray = 0, point = lists[0].size();
   result.resize(flat.size());
-  for (std::size_t k = 0; k < flat.size(); ++k) {
-    const double distance = std::sqrt(squaredDistances[static_cast<std::size_t>(flat[k])]);
-    result[k] = distance < kMaxDistance ? distance : kMaxDistance;  // the comparison is false for NaN
-  }
+  for (std::size_t k = 0; k < flat.size(); ++k) result[k] = raysFirst[flat[k] < data_->count2d2d() ? ray++ : point++];
 }
 
-int HybridProblemCore::countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const {
-  checkRanges("indices", flat, data_->count());
+int HybridProblemCore::countWithin(const FocalPose& model, const CorrespondencePool& pool, double threshold) const {
   if (!(threshold >= 0)) throwInvalid("threshold", "must not be negative, is " + detail::format(threshold));
-  std::vector<double> squaredDistances;
-  data_->computeSquaredDistances(model, squaredDistances);
-  const double squaredThreshold = threshold * threshold;
-  int count = 0;
-  for (int i : flat) count += squaredDistances[static_cast<std::size_t>(i)] < squaredThreshold;
-  return count;
+  return data_->score(pool.data_->arrays(data_->arrays), model, threshold).inliers;
 }
 
 FocalPose HybridProblemCore::optimize(const MultiIndices& inliers, const FocalPose& model) const {
-  data_->checkPool("inliers", inliers);
+  if (inliers.size() != 2) throwInvalid("inliers", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(inliers.size()));
+  checkMultiIndices("inliers", inliers, {static_cast<int>(inliers[0].size()), static_cast<int>(inliers[1].size())},
+                    {data_->correspondences.rays.size(), data_->correspondences.points.size()});
   checkPose("model", model);
-  return hybridgv::hybrid_pose::optimize_nonlinear(data_->correspondences, inliers, model).pose;
+  return hybridgv::hybrid_pose::optimizeNonlinear(data_->correspondences.subset(inliers[0], inliers[1]), model).pose;
 }
 
-// splitmix64
 std::function<int()> randomSequence(std::uint64_t seed) {
-  return [state = seed]() mutable {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return static_cast<int>((z ^ (z >> 31)) >> 33);
-  };
+  return [random = math::SplitMix64(seed)]() mutable { return static_cast<int>(random.next() >> 33); };
 }
 
 }  // namespace hybrid_pose

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -70,9 +71,11 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
                        std::uint64_t seed = 0)
       : SampleConsensusProblem(false),
         core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx),
-        raysFromOneCamera_(core_.drawsRaysFromOneCamera()) {
+        raysFromOneCamera_(core_.drawsRaysFromOneCamera()),
+        pool_(core_.makePool({})) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
     setUniformIndices(core_.size()[0] + core_.size()[1]);
+    preparePool();
   }
 
   /// Whether the 2D-2D correspondences of a sample come from one rig camera (the default for H51f, where it is about a hundred
@@ -87,20 +90,18 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   /// max_sample_checks_ times; the last one is returned in any case, and computeModelCoefficients then finds no model for it.
   /// Empty, which ends the loop, if the list has too few of one kind.
   void getSamples(int& /*iterations*/, std::vector<int>& samples) override {
-    const MultiIndices pool = core_.split(*indices_);
     for (int check = 0; check == 0 || check < max_sample_checks_; ++check) {
-      const MultiIndices sample = core_.drawSample(pool, raysFromOneCamera_, *rng_gen_);
-      samples = sample.empty() ? std::vector<int>() : core_.join(sample);
+      drawSample(samples);
       if (samples.empty() || isSampleGood(samples)) return;
     }
   }
 
   /// False for a sample that cannot fix the pose; what that is, HybridProblemCore::isSampleGood says.
-  bool isSampleGood(const std::vector<int>& sample) const override { return core_.isSampleGood(core_.split(sample)); }
+  bool isSampleGood(const std::vector<int>& sample) const override { return core_.isFlatSampleGood(sample); }
 
   /// Solves a sample and keeps the solution that explains the indices set by setIndices best (HybridProblemCore::computeModel).
   bool computeModelCoefficients(const std::vector<int>& indices, model_t& outModel) const override {
-    return core_.computeModel(core_.split(indices), *indices_, outModel);
+    return core_.computeModel(core_.split(indices), pool(), outModel);
   }
 
   /// Errors of the correspondences, each divided by the threshold of its kind (HybridProblemCore::distances).
@@ -111,7 +112,7 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
 
   /// How many distances are below `threshold`, which OpenGV's loops set to `threshold_` (HybridProblemCore::countWithin).
   int countWithinDistance(const model_t& model, const double threshold) override {
-    return core_.countWithin(model, *indices_, threshold);
+    return core_.countWithin(model, pool(), threshold);
   }
 
   /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.
@@ -120,8 +121,32 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   }
 
  private:
+  // A list that was replaced or resized is noticed at once, an entry that was written over when it is drawn.
+  void drawSample(std::vector<int>& samples) {
+    if (pooled_ != indices_ || pool_.indices().size() != indices_->size()) preparePool();
+    core_.drawSample(pool_, raysFromOneCamera_, *rng_gen_, samples);
+    const auto isStale = [this](int place) { return entry(*indices_, place) != entry(pool_.indices(), place); };
+    if (std::any_of(samples.begin(), samples.end(), isStale)) {
+      preparePool();
+      core_.drawSample(pool_, raysFromOneCamera_, *rng_gen_, samples);
+    }
+    for (int& sample : samples) sample = entry(*indices_, sample);
+  }
+
+  void preparePool() {
+    pool_ = core_.makePool(*indices_);
+    pooled_ = indices_;
+  }
+
+  // The pool of the list as it is now. Scoring takes much longer than comparing.
+  CorrespondencePool pool() const { return pool_.indices() == *indices_ ? pool_ : core_.makePool(*indices_); }
+
+  static int entry(const std::vector<int>& list, int place) { return list[static_cast<std::size_t>(place)]; }
+
   HybridProblemCore core_;
   bool raysFromOneCamera_;
+  CorrespondencePool pool_;
+  std::shared_ptr<std::vector<int>> pooled_;  // the list of which pool_ was made: kept, so that no other can take its place
 };
 
 }  // namespace hybrid_pose

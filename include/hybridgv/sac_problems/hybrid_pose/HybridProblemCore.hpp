@@ -19,6 +19,20 @@ namespace hybrid_pose {
 /// Indices of correspondences, a list for each kind: {2D-2D, 2D-3D}.
 using MultiIndices = std::vector<std::vector<int>>;
 
+/// A list of correspondences from which samples are drawn and over which solutions are counted, prepared once by
+/// HybridProblemCore::makePool. Copies share it.
+class HYBRIDGV_EXPORT CorrespondencePool {
+ public:
+  /// The flat indices of which it was made, in their order. (They may repeat, and then count as often.)
+  const std::vector<int>& indices() const;
+
+ private:
+  friend class HybridProblemCore;
+  struct Data;
+  explicit CorrespondencePool(std::shared_ptr<const Data> data);
+  std::shared_ptr<const Data> data_;
+};
+
 /// The mathematics behind HybridPoseSacProblem and MultiHybridPoseSacProblem, which are thin and header-only because OpenGV's
 /// base classes are templates that belong to the user's program. Use it directly only to write another loop.
 ///
@@ -45,26 +59,33 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   /// The inverse of split: flat indices, those of the 2D-2D correspondences first.
   std::vector<int> join(const MultiIndices& indices) const;
 
-  /// Draws a minimal sample from `pool` with random numbers 0 .. 2^31-1: every subset of the right mixture is equally likely.
-  /// `raysFromOneCamera`: the 2D-2D correspondences come from one rig camera, chosen with a probability proportional to its
-  /// number of matches among those that have enough; where none has, from any cameras. Empty if the pool is too small.
-  MultiIndices drawSample(const MultiIndices& pool, bool raysFromOneCamera, const std::function<int()>& random) const;
+  /// Prepares a list of flat indices. Throws std::invalid_argument for an index that is out of range.
+  CorrespondencePool makePool(const std::vector<int>& flat) const;
 
-  /// False for a sample that cannot fix the pose: a repeated correspondence, coincident image points, three collinear points,
-  /// coincident points, rays on one line, a ray through a point of the sample. All up to 1e-6, relative.
+  /// Draws a minimal sample with random numbers 0 .. 2^31-1, in a time that does not depend on the size of the pool: every subset of
+  /// the right mixture is equally likely. The result are places in pool.indices(), of the 2D-2D correspondences first; empty if the
+  /// pool is too small. `raysFromOneCamera`: the 2D-2D correspondences come from one rig camera, chosen with a probability
+  /// proportional to its number of matches among those that have enough; where none has, from any cameras.
+  void drawSample(const CorrespondencePool& pool, bool raysFromOneCamera, const std::function<int()>& random,
+                  std::vector<int>& places) const;
+
+  /// False for a sample that no solver can use: a repeated correspondence, two points seen at one place, collinear or coincident
+  /// first three points, two rays of one camera with one direction, a ray through a point of the sample. All up to 1e-6, relative.
   bool isSampleGood(const MultiIndices& sample) const;
+  /// The same for flat indices, in any order.
+  bool isFlatSampleGood(const std::vector<int>& sample) const;
 
-  /// Solves the sample and keeps that solution which explains the pool (flat indices) best, by the sum of min(distance^2, 1).
-  /// Returns false if there is no solution.
-  bool computeModel(const MultiIndices& sample, const std::vector<int>& pool, FocalPose& model) const;
+  /// Solves the sample and keeps that solution which explains the pool best, by the sum of min(distance^2, 1). Returns false if
+  /// there is no solution.
+  bool computeModel(const MultiIndices& sample, const CorrespondencePool& pool, FocalPose& model) const;
 
   /// Distances of correspondences (flat indices) to the model, in the same order: each an error in pixels divided by its own
   /// threshold; finite (kMaxDistance for a point behind the camera, and for a model that is not finite, which the loops may ask
   /// for).
   void distances(const FocalPose& model, const std::vector<int>& flat, std::vector<double>& result) const;
 
-  /// How many of these distances are below `threshold`, which must not be negative.
-  int countWithin(const FocalPose& model, const std::vector<int>& flat, double threshold) const;
+  /// How many distances of the pool are below `threshold`, which must not be negative.
+  int countWithin(const FocalPose& model, const CorrespondencePool& pool, double threshold) const;
 
   /// hybrid_pose::optimize_nonlinear on the inliers; std::invalid_argument for a model that is not a pose.
   FocalPose optimize(const MultiIndices& inliers, const FocalPose& model) const;

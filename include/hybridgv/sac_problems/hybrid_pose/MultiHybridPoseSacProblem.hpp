@@ -39,9 +39,11 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
                             std::uint64_t seed = 0)
       : MultiSampleConsensusProblem(false),
         core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx),
-        raysFromOneCamera_(core_.drawsRaysFromOneCamera()) {
+        raysFromOneCamera_(core_.drawsRaysFromOneCamera()),
+        pool_(core_.makePool({})) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
     setUniformIndices({core_.size()[0], core_.size()[1]});
+    preparePool();
   }
 
   /// Whether the 2D-2D correspondences of a sample come from one rig camera, as HybridPoseSacProblem::setRaysFromOneCamera.
@@ -53,7 +55,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
   /// Draws m 2D-2D and n 2D-3D correspondences of the lists set by setIndices, as HybridPoseSacProblem::getSamples.
   void getSamples(int& /*iterations*/, std::vector<std::vector<int>>& samples) override {
     for (int check = 0; check == 0 || check < max_sample_checks_; ++check) {
-      samples = core_.drawSample(*indices_, raysFromOneCamera_, *rng_gen_);
+      drawSample(samples);
       if (samples.empty() || isSampleGood(samples)) return;
     }
   }
@@ -63,7 +65,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
 
   /// Solves a sample and keeps the solution that explains the indices set by setIndices best (HybridProblemCore::computeModel).
   bool computeModelCoefficients(const std::vector<std::vector<int>>& indices, model_t& outModel) const override {
-    return core_.computeModel(indices, core_.join(*indices_), outModel);
+    return core_.computeModel(indices, pool(), outModel);
   }
 
   /// Errors of the correspondences, each divided by the threshold of its kind (HybridProblemCore::distances).
@@ -77,7 +79,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
 
   /// How many distances are below `threshold`, which OpenGV's loops set to `threshold_` (HybridProblemCore::countWithin).
   int countWithinDistance(const model_t& model, const double threshold) override {
-    return core_.countWithin(model, core_.join(*indices_), threshold);
+    return core_.countWithin(model, pool(), threshold);
   }
 
   /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.
@@ -87,8 +89,52 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
   }
 
  private:
+  // See HybridPoseSacProblem.
+  void drawSample(std::vector<std::vector<int>>& samples) {
+    if (pooled_ != indices_ || !hasPooledSizes()) preparePool();
+    core_.drawSample(pool_, raysFromOneCamera_, *rng_gen_, places_);
+    if (std::any_of(places_.begin(), places_.end(), [this](int place) { return isStale(static_cast<std::size_t>(place)); })) {
+      preparePool();
+      core_.drawSample(pool_, raysFromOneCamera_, *rng_gen_, places_);
+    }
+    if (places_.empty()) return samples.clear();
+    samples.resize(2);
+    for (std::vector<int>& list : samples) list.clear();
+    for (const int place : places_) {
+      const bool isRay = static_cast<std::size_t>(place) < pooledRays_;
+      samples[isRay ? 0 : 1].push_back(pool_.indices()[static_cast<std::size_t>(place)] - (isRay ? 0 : core_.size()[0]));
+    }
+  }
+
+  void preparePool() {
+    pool_ = core_.makePool(core_.join(*indices_));
+    pooledRays_ = (*indices_)[0].size();
+    pooled_ = indices_;
+  }
+
+  bool hasPooledSizes() const {
+    return indices_->size() == 2 && (*indices_)[0].size() == pooledRays_ &&
+           (*indices_)[1].size() == pool_.indices().size() - pooledRays_;
+  }
+  // Whether the pool has another correspondence at this place than the lists.
+  bool isStale(std::size_t place) const {
+    const int flat = place < pooledRays_ ? (*indices_)[0][place] : core_.size()[0] + (*indices_)[1][place - pooledRays_];
+    return pool_.indices()[place] != flat;
+  }
+  bool isCurrent() const {
+    if (!hasPooledSizes()) return false;
+    for (std::size_t place = 0; place < pool_.indices().size(); ++place)
+      if (isStale(place)) return false;
+    return true;
+  }
+  CorrespondencePool pool() const { return isCurrent() ? pool_ : core_.makePool(core_.join(*indices_)); }
+
   HybridProblemCore core_;
   bool raysFromOneCamera_;
+  CorrespondencePool pool_;  // the 2D-2D correspondences, then the 2D-3D ones
+  std::size_t pooledRays_ = 0;
+  std::shared_ptr<std::vector<std::vector<int>>> pooled_;
+  std::vector<int> places_;
 };
 
 }  // namespace hybrid_pose

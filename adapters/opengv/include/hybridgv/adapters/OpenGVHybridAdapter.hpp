@@ -2,12 +2,15 @@
 /// \brief Hybrid correspondences read from OpenGV's own adapters.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <opengv/absolute_pose/AbsoluteAdapterBase.hpp>
 #include <opengv/relative_pose/RelativeAdapterBase.hpp>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "hybridgv/detail/format.hpp"
@@ -32,7 +35,7 @@ namespace hybridgv {
 /// The query is one pinhole camera in the origin of its viewpoint: getCamOffset2 and getCamRotation2, and the absolute adapter's
 /// getCamOffset and getCamRotation, must be zero and identity. (NoncentralRelativeAdapter has one list of cameras for both
 /// viewpoints: append a camera with zero offset and identity rotation for the query.) Correspondences with equal getCamOffset1
-/// and getCamRotation1 belong to one rig camera; getCamIndex numbers these in the order of their first appearance.
+/// belong to one rig camera; getCamIndex numbers these in the order of their first appearance.
 ///
 /// **Lifetime**: OpenGV's adapters are referred to, as everywhere in OpenGV, and must outlive this one (temporaries do not
 /// compile). They are only read, and must keep their number of correspondences and their cameras.
@@ -71,7 +74,7 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
   Eigen::Matrix3d getCamRotation(std::size_t index) const override { return relative_->getCamRotation1(index); }
   double getWeight2d2d(std::size_t index) const override { return relative_->getWeight(index); }
 
-  std::size_t getNumberCorrespondences2d3d() const override { return absolute_ ? absolute_->getNumberCorrespondences() : 0; }
+  std::size_t getNumberCorrespondences2d3d() const override { return count2d3d_; }
   Eigen::Vector3d getImagePoint2d3d(std::size_t index) const override { return imagePoint(absolute_->getBearingVector(index)); }
   Eigen::Vector3d getPoint(std::size_t index) const override { return absolute_->getPoint(index); }
   double getWeight2d3d(std::size_t index) const override { return absolute_->getWeight(index); }
@@ -82,31 +85,46 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
     if (!(nominalFocalLength > 0) || !std::isfinite(nominalFocalLength))
       throwInvalid("nominalFocalLength", "must be positive and finite, is " + detail::format(nominalFocalLength));
     if (relative_) readRelative();
-    if (absolute_) checkAbsolute();
+    if (absolute_) readAbsolute();
   }
 
+  using Centre = std::array<double, 3>;
+  struct CentreHash {
+    std::size_t operator()(const Centre& centre) const {
+      std::size_t result = 0;
+      for (double coordinate : centre) result = 31 * (result ^ (result >> 16)) + std::hash<double>()(coordinate);
+      return result;
+    }
+  };
+
   void readRelative() {
-    std::vector<std::pair<Eigen::Vector3d, Eigen::Matrix3d>> cameras;
-    const std::size_t count = relative_->getNumberCorrespondences();
+    std::unordered_map<Centre, int, CentreHash> cameras;
+    const std::size_t count = checkedCount("relative", relative_->getNumberCorrespondences());
     camIndices_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       checkQueryBearing("relative.getBearingVector2", i, relative_->getBearingVector2(i));
       checkQueryCamera("relative.getCamOffset2", "relative.getCamRotation2", i, relative_->getCamOffset2(i),
                        relative_->getCamRotation2(i));
-      const std::pair<Eigen::Vector3d, Eigen::Matrix3d> camera(relative_->getCamOffset1(i), relative_->getCamRotation1(i));
-      std::size_t index = 0;
-      while (index < cameras.size() && cameras[index] != camera) ++index;
-      if (index == cameras.size()) cameras.push_back(camera);
-      camIndices_.push_back(static_cast<int>(index));
+      const Eigen::Vector3d centre = relative_->getCamOffset1(i);
+      const int next = static_cast<int>(cameras.size());
+      camIndices_.push_back(cameras.emplace(Centre{centre[0], centre[1], centre[2]}, next).first->second);
     }
   }
 
-  void checkAbsolute() const {
-    for (std::size_t i = 0; i < absolute_->getNumberCorrespondences(); ++i) {
+  void readAbsolute() {
+    count2d3d_ = checkedCount("absolute", absolute_->getNumberCorrespondences());
+    for (std::size_t i = 0; i < count2d3d_; ++i) {
       checkQueryBearing("absolute.getBearingVector", i, absolute_->getBearingVector(i));
       checkQueryCamera("absolute.getCamOffset", "absolute.getCamRotation", i, absolute_->getCamOffset(i),
                        absolute_->getCamRotation(i));
     }
+  }
+
+  static std::size_t checkedCount(const char* adapter, std::size_t count) {
+    if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      throwInvalid(std::string(adapter) + ".getNumberCorrespondences()",
+                   "at most 2^31 - 1 are possible, is " + std::to_string(count));
+    return count;
   }
 
   static void checkQueryBearing(const char* name, std::size_t index, const Eigen::Vector3d& bearing) {
@@ -139,6 +157,7 @@ class OpenGVHybridAdapter : public hybrid_pose::HybridAdapterBase {
   const AbsoluteAdapter* absolute_;
   double nominalFocalLength_;
   std::vector<int> camIndices_;
+  std::size_t count2d3d_ = 0;
 };
 
 }  // namespace hybridgv
