@@ -3,7 +3,7 @@
 # and of all kernels pass under qemu, which has the arithmetic of a real processor (but not its speed).
 set -e
 cd "$(dirname "$0")/.."
-sh .ci/install_packages.sh g++-aarch64-linux-gnu qemu-user googletest ninja-build cmake libeigen3-dev
+sh .ci/install_packages.sh build aarch64
 target=aarch64-linux-gnu
 emulator="qemu-aarch64 -L /usr/$target"
 build=build/aarch64

@@ -3,7 +3,7 @@
 # parts that link libopengv, which Debian builds with another one.
 set -e
 cd "$(dirname "$0")/.."
-sh .ci/install_packages.sh clang-14 libc++-14-dev libc++abi-14-dev googletest ninja-build cmake libeigen3-dev
+sh .ci/install_packages.sh build clang libcxx
 build=build/libcxx
 jobs=$(nproc)
 libcxx="-G Ninja -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_CXX_FLAGS=-stdlib=libc++ -DCMAKE_BUILD_TYPE=Release"
