@@ -36,6 +36,7 @@ struct Arguments {
   std::vector<std::string> queries;
   std::string solver = "all";
   hybridgv::sfm::LocalizationProblemOptions matches;
+  hybridgv::sfm::ReadOptions reading;
   HybridRansacOptions ransac;
   double outlierShare = 0;
   bool json = false, readStandardInput = false, quiet = false;
@@ -108,7 +109,8 @@ int parse(int argc, char** argv, Arguments& arguments) {
   addNumber(app, "--max-iterations", ransac.maxIterations, "largest number of samples", "a positive integer", isCount);
   addNumber(app, "--success-probability", ransac.successProbability, "when to stop sampling", "between 0 and 1", isProbability);
   app.add_flag("--json", arguments.json, "one JSON object per query and line instead of the table");
-  app.add_flag("--quiet", arguments.quiet, "no progress bar");
+  app.add_flag("--strict", arguments.reading.strict, "refuse maps with faults that are mended otherwise");
+  app.add_flag("--quiet", arguments.quiet, "no progress bar, no word about what was mended in the map");
   try {
     app.parse(argc, argv);
     if (arguments.solver != "all") arguments.ransac.solvers = {{hybridgv::solverFromString(arguments.solver), 1.0}};
@@ -123,13 +125,6 @@ int parse(int argc, char** argv, Arguments& arguments) {
 
 // A query that is made when its turn comes.
 using Query = std::function<LocalizationProblem()>;
-
-bool isMap(const std::string& path) {
-  if (std::filesystem::is_directory(path)) return true;
-  std::string start(13, ' ');
-  std::ifstream(path, std::ios::binary).read(start.data(), 13);
-  return start.compare(0, 6, "NVM_V3") == 0 || start == "# Bundle file";
-}
 
 // In quotation marks, with control characters as \xHH, so that one sees them.
 std::string quoted(const std::string& text) {
@@ -160,6 +155,12 @@ std::vector<std::string> readLines(std::istream& in) {
   return lines;
 }
 
+// What the reader has mended, unless --quiet.
+void printReport(const hybridgv::sfm::ReadReport& report, const Arguments& arguments) {
+  if (arguments.quiet) return;
+  for (const std::string& sentence : report.sentences()) std::fprintf(stderr, "localize: %s\n", sentence.c_str());
+}
+
 // All images of this name, of which a map may have several; if there is none, the one whose index it is.
 std::vector<std::size_t> findImages(const hybridgv::sfm::SparseModel& map, const std::string& name) {
   std::vector<std::size_t> found;
@@ -172,14 +173,27 @@ std::vector<std::size_t> findImages(const hybridgv::sfm::SparseModel& map, const
   throw std::invalid_argument("no image of the map is called " + quoted(name));
 }
 
+// A panorama has no pose with a focal length to look for.
+bool canBeQuery(const hybridgv::sfm::SparseModel& map, std::size_t index, const Arguments& arguments) {
+  const hybridgv::sfm::Image& image = map.images[index];
+  if (!image.registered) return false;
+  const hybridgv::sfm::CameraModel model = map.cameras[image.camera].model;
+  if (hasImagePlane(model)) return true;
+  if (!arguments.quiet)
+    std::fprintf(stderr, "localize: %s is no query: %s has no image plane\n", image.name.c_str(), toString(model));
+  return false;
+}
+
 std::vector<Query> queriesOfMap(const std::string& path, const Arguments& arguments, const std::vector<std::string>& names) {
-  const auto map = std::make_shared<const hybridgv::sfm::SparseModel>(hybridgv::sfm::readModel(path));
+  hybridgv::sfm::ReadReport report;
+  const auto map = std::make_shared<const hybridgv::sfm::SparseModel>(hybridgv::sfm::readModel(path, arguments.reading, &report));
+  printReport(report, arguments);
   std::vector<std::size_t> images;
   for (const std::string& name : names)
     for (const std::size_t image : findImages(*map, name)) images.push_back(image);
   if (names.empty())
     for (std::size_t i = 0; i < map->images.size(); ++i)
-      if (map->images[i].registered) images.push_back(i);
+      if (canBeQuery(*map, i, arguments)) images.push_back(i);
   std::vector<Query> queries;
   for (const std::size_t image : images)
     queries.emplace_back([map, image, options = arguments.matches] { return makeLocalizationProblem(*map, image, options); });
@@ -189,7 +203,7 @@ std::vector<Query> queriesOfMap(const std::string& path, const Arguments& argume
 std::vector<Query> collectQueries(const Arguments& arguments) {
   std::vector<std::string> names = arguments.queries, files;
   std::vector<std::string> maps;
-  for (const std::string& input : arguments.inputs) (isMap(input) ? maps : files).push_back(input);
+  for (const std::string& input : arguments.inputs) (hybridgv::sfm::isProblemFile(input) ? files : maps).push_back(input);
   if (arguments.readStandardInput)
     for (const std::string& line : readLines(std::cin)) (maps.empty() ? files : names).push_back(line);
   if (maps.empty() && !arguments.queries.empty()) throw std::invalid_argument("--query: there is no map to look for images in");
@@ -199,7 +213,13 @@ std::vector<Query> collectQueries(const Arguments& arguments) {
   std::vector<Query> queries;
   for (const std::string& map : maps)
     for (Query& query : queriesOfMap(map, arguments, names)) queries.push_back(std::move(query));
-  for (const std::string& file : files) queries.emplace_back([file] { return hybridgv::sfm::readProblem(file); });
+  for (const std::string& file : files)
+    queries.emplace_back([file, &arguments] {
+      hybridgv::sfm::ReadReport report;
+      LocalizationProblem problem = hybridgv::sfm::readProblem(file, arguments.reading, &report);
+      printReport(report, arguments);
+      return problem;
+    });
   return queries;
 }
 

@@ -1,5 +1,8 @@
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
+#include "Consistency.hpp"
+#include "ModelLinks.hpp"
+#include "PointList.hpp"
 #include "TextScanner.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 
@@ -7,19 +10,16 @@ namespace hybridgv {
 namespace sfm {
 namespace {
 
-// The shortest records, one character per number and one blank after each.
+// The shortest record, one character per number and one blank after each.
 constexpr std::size_t kCameraBytes = std::size_t{15} * 2;
-constexpr std::size_t kPointBytes = std::size_t{7} * 2;
-constexpr std::size_t kViewBytes = std::size_t{4} * 2;
 
 Eigen::Vector3d readVector(TextScanner& in, const char* what) {
-  const double x = in.number(what), y = in.number(what), z = in.number(what);
+  const double x = in.anyNumber(what), y = in.anyNumber(what), z = in.anyNumber(what);
   return {x, y, z};
 }
 
 // f k1 k2, R (three rows), t:  x = R X + t, the camera looks along -z and the image's y axis points up.
 void readCamera(TextScanner& in, std::size_t index, SparseModel& model) {
-  constexpr double kTolerance = 1e-3;  // of R^T R = I
   Camera& camera = model.cameras.emplace_back();
   Image& image = model.images.emplace_back();
   camera.id = image.id = static_cast<std::uint32_t>(index);
@@ -31,52 +31,41 @@ void readCamera(TextScanner& in, std::size_t index, SparseModel& model) {
   Eigen::Matrix3d rotation;
   for (int row = 0; row < 3; ++row) rotation.row(row) = readVector(in, "the rotation of a camera").transpose();
   const Eigen::Vector3d translation = readVector(in, "the translation of a camera");
-  image.registered = intrinsics[0] != 0;
-  if (!image.registered) return;
-  if (intrinsics[0] < 0) in.fail("the focal length of camera " + std::to_string(index) + " is negative");
-  const Eigen::Matrix3d error = rotation.transpose() * rotation - Eigen::Matrix3d::Identity();
-  if (!(error.cwiseAbs().maxCoeff() < kTolerance) || rotation.determinant() < 0)
-    in.fail("the matrix of camera " + std::to_string(index) + " is not a rotation");
-  const Eigen::Matrix3d flip = Eigen::Vector3d(1, -1, -1).asDiagonal();
-  image.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix().transpose() * flip;
-  image.position = -(image.rotation * (flip * translation));
-  if (!image.position.allFinite()) in.fail("the position of camera " + std::to_string(index) + " is not finite");
-}
-
-// X, colour, number of views; each view: camera, key, x, y
-void readPoint(TextScanner& in, std::size_t index, SparseModel& model) {
-  Point& point = model.points.emplace_back();
-  point.id = index;
-  point.position = readVector(in, "the position of a point");
-  for (std::uint8_t& channel : point.colour) channel = in.integer<std::uint8_t>("the colour of a point");
-  const std::size_t views = in.count("the number of views of a point", kViewBytes);
-  point.track.reserve(views);
-  for (std::size_t i = 0; i < views; ++i) {
-    const auto view = in.integer<std::size_t>("the camera of a view");
-    if (view >= model.images.size()) in.fail("there is no camera " + std::to_string(view));
-    if (!model.images[view].registered) in.fail("camera " + std::to_string(view) + " has no pose and sees a point");
-    in.integer<std::int64_t>("the key of a view");
-    const double x = in.number("the position of a view"), y = in.number("the position of a view");
-    std::vector<Observation>& observations = model.images[view].observations;
-    point.track.push_back({view, observations.size()});
-    observations.push_back({x, -y, index});
+  image.registered = false;
+  if (intrinsics[0] == 0) return;
+  const auto leaveOut = [&](Mend mend, const std::string& reason) {
+    in.mending().note(mend, [&] { return in.error("camera " + std::to_string(index) + ": " + reason); });
+  };
+  if (!intrinsics.allFinite() || intrinsics[0] < 0) {
+    leaveOut(Mend::UnusableCamera, intrinsics[0] < 0 ? "the focal length is negative" : "a parameter is not finite");
+    return;
   }
+  Image posed;
+  const std::string fault = setPoseFromMatrix(rotation, translation, posed);
+  if (!fault.empty()) {
+    leaveOut(Mend::ImageWithoutUsablePose, fault);
+    return;
+  }
+  image.registered = true;
+  image.rotation = posed.rotation * Eigen::Vector3d(1, -1, -1).asDiagonal();
+  image.position = posed.position;
 }
 
 }  // namespace
 
-SparseModel readBundler(const std::string& path) {
-  TextScanner in(path, TextScanner::Layout::Free);
+SparseModel readBundler(const std::string& path, const ReadOptions& options, ReadReport* report) {
+  Mending mending(options, report);
+  TextScanner in(path, TextScanner::Layout::Free, mending);
   if (in.restOfLine() != "# Bundle file v0.3") throw FileError::atLine(path, 1, "expected '# Bundle file v0.3'");
   in.skipComments();
   SparseModel model;
   const std::size_t cameras = in.count("the number of cameras", kCameraBytes);
-  const std::size_t points = in.count("the number of points", kPointBytes);
+  const std::size_t points = in.count("the number of points", kListedPointBytes);
   model.images.reserve(cameras);
-  model.points.reserve(points);
   for (std::size_t i = 0; i < cameras; ++i) readCamera(in, i, model);
-  for (std::size_t i = 0; i < points; ++i) readPoint(in, i, model);
+  readPointList(in, points, "camera", -1, model);
   if (!in.atEnd()) in.fail("there is more after the last point");
+  checkConsistency(path, mending, model);
   return model;
 }
 

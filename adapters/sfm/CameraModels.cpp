@@ -46,19 +46,6 @@ const Entry* find(CameraModel model) {
   return entry == std::end(kModels) ? nullptr : entry;
 }
 
-std::string findParameterFault(const Camera& camera) {
-  const std::vector<double>& p = camera.parameters;
-  if (camera.model == CameraModel::Equirectangular)
-    return p[0] > 0 && p[1] > 0 ? "" : "the size of the panorama must be positive, is " + detail::format(std::min(p[0], p[1]));
-  const double smallest = find(camera.model)->focalLengths == 2 ? std::min(p[0], p[1]) : p[0];
-  if (!(smallest > 0)) return "the focal length must be positive, is " + detail::format(smallest);
-  if (camera.model == CameraModel::Fov && !(std::abs(p[4]) < std::acos(-1.0)))
-    return "the angle of FOV must be smaller than pi, is " + detail::format(p[4]);
-  if (camera.model == CameraModel::Eucm && !(p[4] >= 0 && p[4] <= 1 && p[5] > 0))
-    return "EUCM wants alpha in 0 .. 1 and beta > 0, got " + detail::format(p[4]) + " and " + detail::format(p[5]);
-  return {};
-}
-
 }  // namespace
 
 const char* toString(CameraModel model) {
@@ -84,6 +71,11 @@ std::size_t parameterCount(CameraModel model) {
   return entry == nullptr ? 0 : entry->parameters;
 }
 
+std::size_t focalLengthCount(CameraModel model) {
+  const Entry* entry = find(model);
+  return entry == nullptr ? 0 : entry->focalLengths;
+}
+
 bool mapsAPlane(CameraModel model) {
   switch (model) {
     case CameraModel::SimplePinhole:
@@ -97,6 +89,19 @@ bool mapsAPlane(CameraModel model) {
     default:
       return false;
   }
+}
+
+static std::string findParameterFault(const Camera& camera) {
+  const std::vector<double>& p = camera.parameters;
+  if (camera.model == CameraModel::Equirectangular)
+    return p[0] > 0 && p[1] > 0 ? "" : "the size of the panorama must be positive, is " + detail::format(std::min(p[0], p[1]));
+  const double smallest = focalLengthCount(camera.model) == 2 ? std::min(p[0], p[1]) : p[0];
+  if (!(smallest > 0)) return "the focal length must be positive, is " + detail::format(smallest);
+  if (camera.model == CameraModel::Fov && !(std::abs(p[4]) < std::acos(-1.0)))
+    return "the angle of FOV must be smaller than pi, is " + detail::format(p[4]);
+  if (camera.model == CameraModel::Eucm && !(p[4] >= 0 && p[4] <= 1 && p[5] > 0))
+    return "EUCM wants alpha in 0 .. 1 and beta > 0, got " + detail::format(p[4]) + " and " + detail::format(p[5]);
+  return {};
 }
 
 std::string findCameraFault(const Camera& camera) {

@@ -20,6 +20,9 @@ std::int32_t colmapNumber(CameraModel model);
 // Number of entries of Camera::parameters.
 std::size_t parameterCount(CameraModel model);
 
+// How many focal lengths these start with: 1, 2, or none for a panorama. The principal point follows.
+std::size_t focalLengthCount(CameraModel model);
+
 // True for the pinhole with or without distortion of its image plane; false where the formula starts from angles or the sphere.
 bool mapsAPlane(CameraModel model);
 

@@ -1,7 +1,8 @@
-#include "CameraModels.hpp"
+#include "ColmapBuilder.hpp"
+#include "Consistency.hpp"
 #include "FileContents.hpp"
-#include "ModelLinks.hpp"
 #include "Printable.hpp"
+#include "RigFiles.hpp"
 #include "TextScanner.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 
@@ -9,114 +10,136 @@ namespace hybridgv {
 namespace sfm {
 namespace {
 
-void check(const TextScanner& in, const std::string& fault) {
-  if (!fault.empty()) in.fail(fault);
-}
-
 Eigen::Vector3d readVector(TextScanner& in, const char* what) {
-  const double x = in.number(what), y = in.number(what), z = in.number(what);
+  const double x = in.anyNumber(what), y = in.anyNumber(what), z = in.anyNumber(what);
   return {x, y, z};
 }
 
-// CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
-void readCameras(const std::string& path, SparseModel& model, IdIndex& cameraIndex) {
-  TextScanner in(path, TextScanner::Layout::Lines);
+// What an interrupted export leaves. (COLMAP's documentation tells users to make an empty points3D.txt, though.)
+void refuseEmpty(const TextScanner& in) {
+  if (in.isEmpty()) throw FileError::inFile(in.file(), "the file is empty");
+}
+
+// Reads record after record. A last line that is cut and cannot be read is left out.
+template <class ReadRecord>
+void readRecords(TextScanner& in, const ReadRecord& readRecord) {
   while (in.toNextRecord()) {
-    Camera camera;
-    camera.id = in.integer<std::uint32_t>("the camera's id");
-    check(in, cameraIndex.add(camera.id));
-    const std::string_view name = in.word("the camera's model");
-    camera.model = colmapModelFromName(name);
-    if (camera.model == CameraModel::Unknown) in.fail("the camera model '" + printable(name) + "' is not known");
-    camera.width = in.integer<std::uint64_t>("the camera's width");
-    camera.height = in.integer<std::uint64_t>("the camera's height");
-    for (std::size_t i = 0; i < parameterCount(camera.model); ++i)
-      camera.parameters.push_back(in.number("a parameter of the camera"));
-    check(in, findCameraFault(camera));
-    in.endLine();
-    model.cameras.push_back(std::move(camera));
+    try {
+      readRecord();
+    } catch (const FileError& error) {
+      if (!in.isInCutLine()) throw;
+      in.mending().note(Mend::CutLastLine, [&] { return error; });
+      in.skipToEndOfFile();
+    }
   }
 }
 
-// POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
-struct Tracks {
-  std::vector<std::vector<TrackEntry>> entries;
-  std::vector<std::size_t> lines;
-};
+// CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
+void readCameras(const std::string& path, ColmapBuilder& builder) {
+  TextScanner in(path, TextScanner::Layout::Lines, builder.mending());
+  refuseEmpty(in);
+  readRecords(in, [&] {
+    Camera camera;
+    camera.id = in.integer<std::uint32_t>("the camera's id");
+    const std::string_view name = in.word("the camera's model");
+    camera.model = colmapModelFromName(name);
+    camera.width = in.integer<std::uint64_t>("the camera's width");
+    camera.height = in.integer<std::uint64_t>("the camera's height");
+    if (camera.model == CameraModel::Unknown) {
+      while (!in.lineEnds()) camera.parameters.push_back(in.anyNumber("a parameter of the camera"));
+    } else {
+      for (std::size_t i = 0; i < parameterCount(camera.model); ++i)
+        camera.parameters.push_back(in.anyNumber("a parameter of the camera"));
+    }
+    builder.addCamera(in, std::move(camera), "'" + printable(name) + "'");
+    in.endLine();
+  });
+}
 
-Tracks readPoints(const std::string& path, SparseModel& model, IdIndex& pointIndex) {
-  TextScanner in(path, TextScanner::Layout::Lines);
-  Tracks tracks;
-  while (in.toNextRecord()) {
+// POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
+void readPoints(const std::string& path, ColmapBuilder& builder) {
+  TextScanner in(path, TextScanner::Layout::Lines, builder.mending());
+  std::vector<TrackEntry> track;
+  readRecords(in, [&] {
     Point point;
     point.id = in.integer<std::uint64_t>("the point's id");
-    check(in, pointIndex.add(point.id));
     point.position = readVector(in, "the point's position");
-    for (std::uint8_t& channel : point.colour) channel = in.integer<std::uint8_t>("the point's colour");
-    point.error = in.number("the point's error");
-    tracks.lines.push_back(in.line());
-    std::vector<TrackEntry>& track = tracks.entries.emplace_back();
+    for (std::uint8_t& channel : point.colour) channel = in.colour("the point's colour");
+    point.error = in.anyNumber("the point's error");
+    track.clear();
     while (!in.lineEnds()) {
       const auto image = in.integer<std::uint32_t>("an image id of the track");
       track.push_back({image, in.integer<std::uint32_t>("an observation's index of the track")});
     }
+    if (builder.beginPoint(in, point)) {
+      for (const TrackEntry& entry : track) builder.addTrackEntry(entry);
+      builder.endPoint(in.line());
+    }
     in.endLine();
-    model.points.push_back(std::move(point));
-  }
-  return tracks;
+  });
 }
 
-// POINTS2D[] as (X, Y, POINT3D_ID)
-void readObservations(TextScanner& in, const IdIndex& pointIndex, std::vector<Observation>& observations) {
-  while (!in.lineEnds()) {
-    Observation& observation = observations.emplace_back();
-    observation.x = in.number("an observation's x");
-    observation.y = in.number("an observation's y");
-    const std::string_view point = in.word("an observation's point id");
-    if (point == "-1") continue;
-    const auto id = in.toInteger<std::uint64_t>("an observation's point id", point);
-    if (!pointIndex.find(id, observation.point)) in.fail(pointIndex.unknown(id));
+// X, Y, POINT3D_ID
+Observation readObservation(TextScanner& in, ColmapBuilder& builder) {
+  const double x = in.anyNumber("an observation's x"), y = in.anyNumber("an observation's y");
+  Observation result = builder.observation(in, x, y);
+  const std::string_view point = in.word("an observation's point id");
+  const bool isNone = point == "-1" || point == "-1.0";
+  builder.setPoint(in, isNone ? ColmapBuilder::kNoPointId : in.toInteger<std::uint64_t>("an observation's point id", point),
+                   result);
+  return result;
+}
+
+// The line of an image's observations. A line that is cut keeps those before the cut.
+void readObservations(TextScanner& in, ColmapBuilder& builder) {
+  std::vector<Observation>& observations = builder.image().observations;
+  try {
+    while (!in.lineEnds()) observations.push_back(readObservation(in, builder));
+  } catch (const FileError& error) {
+    if (!in.isInCutLine()) throw;
+    in.mending().note(Mend::CutLastLine, [&] { return error; });
+    in.skipToEndOfFile();
   }
-  observations.shrink_to_fit();
   in.endLine();
 }
 
 // IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; on the next line, which may be empty, the observations
-void readImages(const std::string& path, const IdIndex& cameraIndex, const IdIndex& pointIndex, SparseModel& model,
-                IdIndex& imageIndex) {
-  TextScanner in(path, TextScanner::Layout::Lines);
-  while (in.toNextRecord()) {
-    Image image;
-    image.id = in.integer<std::uint32_t>("the image's id");
-    check(in, imageIndex.add(image.id));
+void readImages(const std::string& path, ColmapBuilder& builder) {
+  TextScanner in(path, TextScanner::Layout::Lines, builder.mending());
+  refuseEmpty(in);
+  readRecords(in, [&] {
+    const auto id = in.integer<std::uint32_t>("the image's id");
     double q[4];
-    for (double& coefficient : q) coefficient = in.number("the image's quaternion");
-    check(in, setPoseFromQuaternion(q, readVector(in, "the image's translation"), image));
+    for (double& coefficient : q) coefficient = in.anyNumber("the image's quaternion");
+    const Eigen::Vector3d translation = readVector(in, "the image's translation");
     const auto camera = in.integer<std::uint32_t>("the image's camera id");
-    if (!cameraIndex.find(camera, image.camera)) in.fail(cameraIndex.unknown(camera));
     if (in.lineEnds()) in.fail("the line ends where the image's name is expected");
-    image.name = in.restOfLine();
-    if (in.atEndOfFile()) in.fail("the file ends where the image's observations are expected");
-    readObservations(in, pointIndex, image.observations);
-    model.images.push_back(std::move(image));
-  }
+    builder.beginImage(in, id, q, translation, camera);
+    builder.image().name = in.restOfLine();
+    if (in.atEndOfFile())
+      in.mending().note(Mend::CutLastLine, [&] { return in.error("the file ends where the image's observations are expected"); });
+    readObservations(in, builder);
+    builder.endImage();
+  });
 }
 
 }  // namespace
 
-SparseModel readColmapText(const std::string& folder) {
-  SparseModel model;
-  IdIndex cameraIndex("camera"), imageIndex("image"), pointIndex("point");
+SparseModel readColmapText(const std::string& folder, const ReadOptions& options, ReadReport* report) {
+  Mending mending(options, report);
+  ColmapBuilder builder(mending);
   const std::string imagesPath = joinPath(folder, "images.txt"), pointsPath = joinPath(folder, "points3D.txt");
-  readCameras(joinPath(folder, "cameras.txt"), model, cameraIndex);
-  const Tracks tracks = readPoints(pointsPath, model, pointIndex);
-  readImages(imagesPath, cameraIndex, pointIndex, model, imageIndex);
-  const auto fail = [&](std::size_t point, const std::string& reason) {
-    throw FileError::atLine(pointsPath, tracks.lines[point], reason);
+  readCameras(joinPath(folder, "cameras.txt"), builder);
+  readPoints(pointsPath, builder);
+  readImages(imagesPath, builder);
+  const auto errorAt = [&](std::size_t point, const std::string& reason) {
+    return FileError::atLine(pointsPath, builder.tracks().places[point], reason);
   };
-  const std::string fault = linkTracks(tracks.entries, imageIndex, fail, model);
-  if (!fault.empty()) throw FileError::inFile(imagesPath, fault);
-  return model;
+  const auto imagesError = [&](const std::string& reason) { return FileError::inFile(imagesPath, reason); };
+  linkTracks(builder.tracks(), builder.imageIndex(), errorAt, imagesError, mending, builder.model());
+  readRigsText(folder, mending, builder.model());
+  checkConsistency(folder, mending, builder.model());
+  return std::move(builder.model());
 }
 
 }  // namespace sfm

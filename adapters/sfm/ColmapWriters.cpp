@@ -1,29 +1,23 @@
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cstring>
 
+#include "ByteWriter.hpp"
 #include "CameraModels.hpp"
+#include "ColmapPose.hpp"
 #include "FileContents.hpp"
 #include "ModelChecks.hpp"
 #include "NumberWriter.hpp"
+#include "RigFiles.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 
 namespace hybridgv {
 namespace sfm {
 namespace {
 
-// COLMAP's pose: qw qx qy qz tx ty tz of x_camera = R(q) X + t
-std::array<double, 7> colmapPose(const Image& image) {
-  Eigen::Quaterniond q(Eigen::Matrix3d(image.rotation.transpose()));
-  q.normalize();
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  const Eigen::Vector3d t = -(image.rotation.transpose() * image.position);
-  return {q.w(), q.x(), q.y(), q.z(), t[0], t[1], t[2]};
-}
-
-// The cameras of registered images (others may have no valid parameters), in COLMAP's terms.
+// The cameras in COLMAP's terms, but those that only images without registration have, or that no image has and that make no
+// sense.
 std::vector<Camera> colmapCameras(const SparseModel& model) {
-  std::vector<bool> wanted(model.cameras.size(), true);
+  std::vector<bool> wanted;
+  for (const Camera& camera : model.cameras) wanted.push_back(findCameraFault(camera).empty());
   for (const Image& image : model.images)
     if (!image.registered) wanted[image.camera] = false;
   for (const Image& image : model.images)
@@ -39,16 +33,6 @@ std::vector<const Image*> registeredImages(const SparseModel& model) {
   for (const Image& image : model.images)
     if (image.registered) result.push_back(&image);
   return result;
-}
-
-void putInteger(std::string& bytes, std::uint64_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
-}
-
-void putNumber(std::string& bytes, double value) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  putInteger(bytes, bits, 8);
 }
 
 }  // namespace
@@ -93,6 +77,7 @@ void writeColmapText(const std::string& folder, const SparseModel& model) {
     text += '\n';
   }
   writeFile(joinPath(folder, "points3D.txt"), text);
+  writeRigsText(folder, model);
 }
 
 void writeColmapBinary(const std::string& folder, const SparseModel& model) {
@@ -140,6 +125,7 @@ void writeColmapBinary(const std::string& folder, const SparseModel& model) {
     }
   }
   writeFile(joinPath(folder, "points3D.bin"), bytes);
+  writeRigsBinary(folder, model);
 }
 
 }  // namespace sfm

@@ -22,6 +22,15 @@ std::string joinPath(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
+std::string readStart(const std::string& path, std::size_t count) {
+  if (!isFile(path)) return {};
+  std::ifstream stream(path, std::ios::binary);
+  std::string result(count, '\0');
+  stream.read(&result[0], static_cast<std::streamsize>(count));
+  result.resize(static_cast<std::size_t>(stream.gcount()));
+  return result;
+}
+
 std::string readFile(const std::string& path) {
   if (!isFile(path)) throw FileError::inFile(path, isFolder(path) ? "is a folder, expected a file" : "no such file");
   std::ifstream stream(path, std::ios::binary);
@@ -39,6 +48,12 @@ void writeFile(const std::string& path, const std::string& contents) {
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   stream.close();
   if (!stream) throw FileError::inFile(path, "cannot be written");
+}
+
+void removeFile(const std::string& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw FileError::inFile(path, "cannot be removed");
 }
 
 }  // namespace sfm

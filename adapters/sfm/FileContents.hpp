@@ -1,6 +1,7 @@
 // Whole files in memory.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace hybridgv {
@@ -10,9 +11,15 @@ bool isFile(const std::string& path);
 bool isFolder(const std::string& path);
 std::string joinPath(const std::string& folder, const std::string& name);
 
+// The first bytes of a file, at most `count`; empty if it cannot be read.
+std::string readStart(const std::string& path, std::size_t count);
+
 // Both throw FileError. Only regular files are read: a device has no end.
 std::string readFile(const std::string& path);
 void writeFile(const std::string& path, const std::string& contents);
+
+// Removes a file if it is there.
+void removeFile(const std::string& path);
 
 }  // namespace sfm
 }  // namespace hybridgv

@@ -19,7 +19,7 @@ template <class Things>
 void checkIds(const Things& things, const char* list, const char* kind) {
   IdIndex ids(kind);
   for (std::size_t i = 0; i < things.size(); ++i) {
-    const std::string fault = ids.add(things[i].id);
+    const std::string fault = ids.add(things[i].id, i);
     if (!fault.empty()) throwInvalid(element(list, i), fault);
   }
 }
@@ -63,6 +63,8 @@ void checkModel(const SparseModel& model) {
   checkIds(model.cameras, "cameras", "camera");
   checkIds(model.images, "images", "image");
   checkIds(model.points, "points", "point");
+  checkIds(model.rigs, "rigs", "rig");
+  checkIds(model.frames, "frames", "frame");
   for (std::size_t i = 0; i < model.images.size(); ++i) checkImage(model, i);
   for (std::size_t i = 0; i < model.points.size(); ++i) checkPoint(model, i);
 }

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <map>
+#include <string_view>
 
 #include "FileContents.hpp"
 #include "ModelLinks.hpp"
@@ -23,6 +24,17 @@ Eigen::Vector3d readVector(TextScanner& in, const char* what) {
 Eigen::Vector3d readImagePoint(TextScanner& in) {
   const double u = in.number("u"), v = in.number("v");
   return {u, v, 1};
+}
+
+std::vector<std::string_view> linesOf(std::string_view text) {
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 // The lines of a problem file, rig cameras still by their ids.
@@ -70,8 +82,8 @@ void readPoint(TextScanner& in, Lines& lines) {
   lines.points.push_back(readVector(in, "the point"));
 }
 
-Lines readLines(const std::string& path) {
-  TextScanner in(path, TextScanner::Layout::Lines);
+Lines readLines(const std::string& path, Mending& mending) {
+  TextScanner in(path, TextScanner::Layout::Lines, mending);
   Lines lines;
   while (in.toNextRecord()) {
     const std::string_view kind = in.word("the kind of line");
@@ -92,8 +104,21 @@ Lines readLines(const std::string& path) {
 
 }  // namespace
 
-LocalizationProblem readProblem(const std::string& path) {
-  const Lines lines = readLines(path);
+bool isProblemFile(const std::string& path) {
+  constexpr std::size_t kBytes = 1 << 16;
+  const std::string start = readStart(path, kBytes);
+  for (const std::string_view line : linesOf(start)) {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos || line[begin] == '#') continue;
+    const std::string_view word = line.substr(begin, line.find_first_of(" \t\r", begin) - begin);
+    return word == "query" || word == "cam" || word == "p2" || word == "p3";
+  }
+  return false;
+}
+
+LocalizationProblem readProblem(const std::string& path, const ReadOptions& options, ReadReport* report) {
+  Mending mending(options, report);
+  const Lines lines = readLines(path, mending);
   std::vector<int> camIndices;
   for (std::size_t i = 0; i < lines.cameraIds.size(); ++i) {
     const auto camera = lines.cameraIndices.find(lines.cameraIds[i]);

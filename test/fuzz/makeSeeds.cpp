@@ -26,6 +26,11 @@ const char* const kCameras =
 const char* const kImages =
     "# images\n1 1 0 0 0 0 0 5 1 a.jpg\n10 20 7 30 40 -1\n2 1 0 0 0 1 0 5 2 b.jpg\n50 60 7 70 80 8\n3 1 0 0 0 2 0 5 3 c.jpg\n"
     "15 25 8\n4 0.7 0 0.7 0 2 0 5 4 d.jpg\n\n";
+const char* const kMoreCameras =
+    "6 OPENCV_FISHEYE 9 9 5 5 4 4 0.1 0 0.01 0\n7 FULL_OPENCV 9 9 5 5 4 4 0.1 0 0.01 0 0 0.1 0 0\n8 FOV 9 9 5 5 4 4 0.9\n"
+    "9 RADIAL_FISHEYE 9 9 5 4 4 0.1 0.01\n10 THIN_PRISM_FISHEYE 9 9 5 5 4 4 0.1 0 0.01 0 0 0 0.01 0.01\n"
+    "11 RAD_TAN_THIN_PRISM_FISHEYE 9 9 5 5 4 4 0.1 0 0 0 0 0 0.01 0 0.01 0 0 0.01\n12 DIVISION 9 9 5 5 4 4 -0.1\n"
+    "13 EUCM 9 9 5 5 4 4 0.6 1.1\n14 EQUIRECTANGULAR 9 9 9 9\n15 TOMORROW 9 9 1 2 3\n";
 const char* const kPoints = "7 0 0 1 9 9 9 0.5 1 0 2 0\n8 1 1 1 9 9 9 0.5 2 1 3 0\n";
 const char* const kBundler =
     "# Bundle file v0.3\n2 2\n500 0.1 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -5\n510 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 -5\n"
@@ -33,6 +38,8 @@ const char* const kBundler =
 const char* const kNvm =
     "NVM_V3 FixedK 500 320 510 240\n\n2\na.jpg 500 1 0 0 0 0 0 -5 0.1 0\nb.jpg 500 1 0 0 0 1 0 -5 0 0\n\n1\n"
     "0 0 1 9 9 9 2 0 3 10 20 1 4 50 60\n\n0\n#PLY\n0\n";
+const char* const kNvmMatrices =
+    "NVM_V3_R9T\n\n1\na photo.jpg 500 1 0 0 0 1 0 0 0 1 0 0 5 0 0\n\n1\n0 0 1 9.0 9 9 1 0 3 10 20\n\n0\n";
 const char* const kNvmTwoModels =
     "NVM_V3\n\n1\na.jpg 500 1 0 0 0 0 0 -5 0 0\n1\n0 0 1 9 9 9 1 0 3 10 20\n1\nb.jpg 5 1 0 0 0 0 0 0 0 0\n0\n0\n";
 const char* const kProblem =
@@ -65,12 +72,17 @@ void writeModels(const std::filesystem::path& folder) {
   const test::TemporaryFolder files;
   files.write("cameras.txt", kCameras), files.write("images.txt", kImages), files.write("points3D.txt", kPoints);
   sfm::writeColmapBinary(files.path(), sfm::readColmapText(files.path()));
+  std::string moreImages;
+  for (int id = 6; id <= 15; ++id)
+    moreImages += std::to_string(id) + " 1 0 0 0 0 0 5 " + std::to_string(id) + " more.jpg\n3 4 7 5 6 -1\n";
+  write(folder / "colmap_text" / "all_cameras", std::string(kMoreCameras) + kSeparator + moreImages + kSeparator + kPoints);
   write(folder / "colmap_text" / "model", std::string(kCameras) + kSeparator + kImages + kSeparator + kPoints);
   write(folder / "colmap_binary" / "model",
         files.read("cameras.bin") + kSeparator + files.read("images.bin") + kSeparator + files.read("points3D.bin"));
   write(folder / "bundler" / "model", kBundler);
   write(folder / "nvm" / "model", kNvm);
   write(folder / "nvm" / "two_models", kNvmTwoModels);
+  write(folder / "nvm" / "matrices", kNvmMatrices);
   write(folder / "problem" / "problem", kProblem);
   // They must be valid: a reader throws otherwise.
   sfm::readBundler(folder / "bundler" / "model");

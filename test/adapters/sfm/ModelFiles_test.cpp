@@ -140,7 +140,7 @@ TEST(ModelFiles, ColmapTextAsWrittenByHand) {
 
 TEST(ModelFiles, EmptyColmapModelIsAModel) {
   const TemporaryFolder folder;
-  for (const char* name : {"cameras.txt", "images.txt", "points3D.txt"}) folder.write(name, "");
+  for (const char* name : {"cameras.txt", "images.txt", "points3D.txt"}) folder.write(name, "# none\n");
   EXPECT_TRUE(readModel(folder.path()).images.empty());
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hybridgv/adapters/NoncentralHybridAdapter.hpp"
+#include "hybridgv/adapters/sfm/ReadReport.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 #include "hybridgv/export.hpp"
 #include "hybridgv/types.hpp"
@@ -85,8 +86,14 @@ HYBRIDGV_EXPORT LocalizationProblem injectOutliers(const LocalizationProblem& pr
 /// The rig cameras' frames are parallel to the rig's, their focal lengths unknown. imageName is the file's name without folder
 /// and extension.
 ///
+/// \param report  what was mended (byte order marks, 128.0 for an integer); may be null
 /// \throws FileError for a malformed file
-HYBRIDGV_EXPORT LocalizationProblem readProblem(const std::string& path);
+HYBRIDGV_EXPORT LocalizationProblem readProblem(const std::string& path, const ReadOptions& options = {},
+                                                ReadReport* report = nullptr);
+
+/// True if the first line that is neither empty nor a comment starts with one of the words of that format. False for a file that
+/// cannot be read.
+HYBRIDGV_EXPORT bool isProblemFile(const std::string& path);
 
 /// Writes that format, with as many digits as are needed to read the same numbers again.
 /// \throws FileError if the file cannot be written

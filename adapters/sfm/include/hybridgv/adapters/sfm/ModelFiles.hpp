@@ -1,17 +1,23 @@
 /// \file
 /// \brief Readers and writers of sparse models: COLMAP (text and binary), Bundler, NVM.
 ///
-/// Every reader throws FileError, with file and line or byte offset, for a file that is missing, truncated or malformed: a word
-/// where a number is expected, NaN, infinite or out-of-range values, an index or id that names nothing, an id that occurs twice,
-/// a count that does not fit the contents, anything after the end. The memory taken is proportional to the size of the files,
-/// whatever counts they declare.
+/// Every reader throws FileError, with file and line or byte offset, for a file that is missing, empty, truncated or malformed: a
+/// word where a number is expected, an id that occurs twice, a count that does not fit the contents, anything after the end.
 ///
-/// The time taken is that of parsing the numbers: about a second for a hundred megabytes of text.
+/// What other programs and scripts commonly have wrong is mended, counted and told in a ReadReport (Mend lists all kinds): tracks
+/// that name images that were removed, a point at infinity, 128.0 where an integer belongs. ReadOptions::strict makes an error of
+/// each. After reading, points are compared with what the images see of them (ReadOptions::checkConsistency).
+///
+/// The memory taken is proportional to the size of the files, whatever counts they declare. The time taken is that of parsing the
+/// numbers: about half a second for a hundred megabytes of text.
+///
+/// The last argument of each reader, what was mended, may be null.
 #pragma once
 
 #include <string>
 
 #include "hybridgv/adapters/sfm/FileError.hpp"
+#include "hybridgv/adapters/sfm/ReadReport.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 #include "hybridgv/export.hpp"
 
@@ -21,33 +27,41 @@ namespace sfm {
 /// Reads a model whatever its format:
 /// * a folder with cameras.bin, images.bin, points3D.bin: COLMAP binary (preferred if both kinds are there)
 /// * a folder with cameras.txt, images.txt, points3D.txt: COLMAP text
+/// * a project folder with such a folder as sparse/0, sparse or 0 (the report says which was read)
+/// * one of these files of a COLMAP model: its folder
 /// * a file that starts with "NVM_V3": VisualSFM
 /// * a file that starts with "# Bundle file v0.3": Bundler
-HYBRIDGV_EXPORT SparseModel readModel(const std::string& path);
+///
+/// For anything else the error says what the file looks like, and what can be read.
+HYBRIDGV_EXPORT SparseModel readModel(const std::string& path, const ReadOptions& options = {}, ReadReport* report = nullptr);
 
 /// COLMAP's cameras.txt, images.txt, points3D.txt in a folder.
 ///
-/// Camera models SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV; for any other the error names the model. An observation
-/// and the track that lists it must agree.
-HYBRIDGV_EXPORT SparseModel readColmapText(const std::string& folder);
+/// All camera models of COLMAP 4.1 (CameraModel); images whose camera has another one are not registered. Where images and tracks
+/// contradict each other, what the images say counts. Rigs and frames of COLMAP 3.12 and later are kept.
+HYBRIDGV_EXPORT SparseModel readColmapText(const std::string& folder, const ReadOptions& options = {},
+                                           ReadReport* report = nullptr);
 
 /// COLMAP's cameras.bin, images.bin, points3D.bin in a folder; see readColmapText.
-HYBRIDGV_EXPORT SparseModel readColmapBinary(const std::string& folder);
+HYBRIDGV_EXPORT SparseModel readColmapBinary(const std::string& folder, const ReadOptions& options = {},
+                                             ReadReport* report = nullptr);
 
 /// A Bundler v0.3 file (bundle.out).
 ///
 /// Bundler's cameras look along -z and its image y axis points up; both are converted (y and z axes of the camera change sign).
-/// Cameras with f = 0 become images with registered == false. The format has no names: image i is called "image_i". Each image
+/// Cameras with f = 0 become images with registered == false; views in them are left out of the tracks. The format has no names: image i is called "image_i". Each image
 /// has its own camera, of model Radial.
-HYBRIDGV_EXPORT SparseModel readBundler(const std::string& path);
+HYBRIDGV_EXPORT SparseModel readBundler(const std::string& path, const ReadOptions& options = {}, ReadReport* report = nullptr);
 
-/// The first model of a VisualSFM file (NVM_V3, also with "FixedK fx cx fy cy"); the following models are checked but not kept.
+/// The first model of a VisualSFM file (NVM_V3, also with "FixedK fx cx fy cy"; NVM_V3_R9T with rotation matrix and translation
+/// instead of quaternion and centre); the following models are checked but not kept.
 ///
 /// Image positions are relative to the principal point; radial distortion is that of CameraModel::NvmRadial. With FixedK, the
 /// focal lengths are fx and fy. A double quote in an image name stands for a space.
-HYBRIDGV_EXPORT SparseModel readNvm(const std::string& path);
+HYBRIDGV_EXPORT SparseModel readNvm(const std::string& path, const ReadOptions& options = {}, ReadReport* report = nullptr);
 
-/// Writes cameras.txt, images.txt, points3D.txt into an existing folder; images that are not registered are left out. Numbers are
+/// Writes cameras.txt, images.txt, points3D.txt into an existing folder; images that are not registered are left out. Rigs and
+/// frames too if the model has some; otherwise such files of another model are removed from the folder. Numbers are
 /// written with as many digits as are needed to read the same values again.
 /// \throws FileError if a file cannot be written; std::invalid_argument for a camera that COLMAP cannot describe (NvmRadial with
 ///         distortion; without, it becomes PINHOLE), or a model whose indices are not valid

@@ -31,7 +31,8 @@ struct Image {
   std::uint32_t id = 0;    ///< the number in the file
   std::string name;        ///< as in the file
   std::size_t camera = 0;  ///< index into SparseModel::cameras
-  bool registered = true;  ///< false: the file lists the image without a pose (Bundler); it has no observations
+  bool registered = true;  ///< false: the file lists the image without a pose that can be used, or its camera cannot be used; it
+                           ///< has no observations
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< camera -> model
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< centre of the camera in the model's frame
   std::vector<Observation> observations;                   ///< its features
@@ -52,12 +53,51 @@ struct Point {
   std::vector<TrackElement> track;                     ///< who sees it; may name an image twice
 };
 
+/// A sensor by COLMAP's numbers: type 0 is a camera of the model, whose id is `id`; other types (1 is an inertial unit) are kept as
+/// they are.
+struct SensorId {
+  std::int32_t type = 0;  ///< 0 = camera
+  std::uint32_t id = 0;   ///< of a camera: Camera::id
+};
+
+/// A sensor of a rig.
+struct RigSensor {
+  SensorId sensor;  ///< which one
+  /// x_sensor = R(q) x_rig + t as in COLMAP's files: qw, qx, qy, qz, tx, ty, tz; empty if it is not known, and for the first
+  /// sensor of a rig, whose frame is the rig's.
+  std::vector<double> sensorFromRig;
+};
+
+/// Sensors that are mounted together (COLMAP 3.12 and later). Not the generalized camera of the library.
+struct SensorRig {
+  std::uint32_t id = 0;            ///< the number in the file
+  std::vector<RigSensor> sensors;  ///< the first one is the reference
+};
+
+/// One thing that a sensor has recorded in a frame; of a camera: an image.
+struct FrameData {
+  SensorId sensor;       ///< which one
+  std::uint64_t id = 0;  ///< of an image: Image::id
+};
+
+/// What the sensors of a rig have recorded at one time (COLMAP 3.12 and later).
+struct Frame {
+  std::uint32_t id = 0;                                     ///< the number in the file
+  std::uint32_t rigId = 0;                                  ///< SensorRig::id
+  std::array<double, 7> rigFromWorld{1, 0, 0, 0, 0, 0, 0};  ///< qw, qx, qy, qz, tx, ty, tz as in COLMAP's files
+  std::vector<FrameData> data;                              ///< what has been recorded
+};
+
 /// Indices refer to these vectors and are always valid in a model that a reader has returned, and
 /// `images[t.image].observations[t.observation].point` is the point's own index for each element t of its track.
 struct SparseModel {
   std::vector<Camera> cameras;  ///< intrinsic parameters, each shared by one or more images
   std::vector<Image> images;    ///< the images of the map
   std::vector<Point> points;    ///< the 3D points
+  /// COLMAP's rigs and frames (3.12 and later), carried along: the poses that count are those of the images. Empty if the files
+  /// have none.
+  std::vector<SensorRig> rigs;
+  std::vector<Frame> frames;  ///< likewise
 };
 
 }  // namespace sfm
