@@ -50,7 +50,7 @@ void readCameras(const std::string& path, ColmapBuilder& builder) {
 void readPoints(const std::string& path, ColmapBuilder& builder) {
   ByteScanner in(path, builder.mending());
   const std::size_t count = in.count("the number of points", kPointBytes);
-  builder.model().points.reserve(count);
+  builder.reservePoints(count);
   for (std::size_t i = 0; i < count; ++i) {
     Point point;
     point.id = in.u64("the point's id");

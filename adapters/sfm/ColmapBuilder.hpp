@@ -37,6 +37,11 @@ class ColmapBuilder {
     model_.cameras.push_back(std::move(camera));
   }
 
+  // How many points there will be.
+  void reservePoints(std::size_t count) {
+    model_.points.reserve(count);
+    pointIndex_.reserve(count);
+  }
   // Starts a point. False if it is left out.
   template <class Scanner>
   bool beginPoint(const Scanner& in, const Point& point) {

@@ -1,6 +1,7 @@
 #include "ModelLinks.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace hybridgv {
@@ -20,18 +21,36 @@ void IdIndex::grow() {
   }
 }
 
-std::string IdIndex::add(std::uint64_t id, std::size_t index) {
+// At most four times as large as their number, so that the table is not large either.
+bool IdIndex::isSmall(std::uint64_t id, std::size_t index) const {
+  constexpr std::size_t kStart = 64;
+  return id / 4 < std::max(reserved_, count_) + kStart && (index < kSmallLeftOut || index == kLeftOut);
+}
+
+void IdIndex::addSmall(std::size_t id, std::size_t index) {
+  if (id >= small_.size()) small_.resize(std::max(id + 1, 2 * small_.size()), kFree);
+  small_[id] = index == kLeftOut ? kSmallLeftOut : static_cast<std::uint32_t>(index);
+}
+
+void IdIndex::addSlot(std::uint64_t id, std::size_t index) {
   if (2 * (taken_ + 1) > slots_.size()) grow();
   std::size_t i = firstSlot(id);
-  for (; slots_[i].index != kNone; i = (i + 1) & (slots_.size() - 1))
-    if (slots_[i].id == id) return std::string(kind_) + " " + std::to_string(id) + " occurs twice";
+  while (slots_[i].index != kNone) i = (i + 1) & (slots_.size() - 1);
   slots_[i] = {id, index};
   ++taken_;
+}
+
+std::string IdIndex::add(std::uint64_t id, std::size_t index) {
+  if (find(id) != kNone) return std::string(kind_) + " " + std::to_string(id) + " occurs twice";
+  if (isSmall(id, index))
+    addSmall(static_cast<std::size_t>(id), index);
+  else
+    addSlot(id, index);
+  ++count_;
   return {};
 }
 
-std::size_t IdIndex::find(std::uint64_t id) const {
-  if (slots_.empty()) return kNone;
+std::size_t IdIndex::findInSlots(std::uint64_t id) const {
   std::size_t i = firstSlot(id);
   while (slots_[i].index != kNone && slots_[i].id != id) i = (i + 1) & (slots_.size() - 1);
   return slots_[i].index;

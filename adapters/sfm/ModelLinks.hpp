@@ -13,31 +13,44 @@
 namespace hybridgv {
 namespace sfm {
 
-// The indices of the things of one kind by their ids: a hash table with open addressing, since an id is looked up for every
-// observation.
+// The indices of the things of one kind by their ids. An id is looked up for every observation, so that small ids, which are the
+// rule, have a table of their own; the others are in a hash table with open addressing.
 class IdIndex {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);     // there is no such id
   static constexpr std::size_t kLeftOut = static_cast<std::size_t>(-2);  // there is, but the thing has been left out
 
   explicit IdIndex(const char* kind) : kind_(kind) {}
+  // How many ids there will be: with that, ids in any order are recognized as small.
+  void reserve(std::size_t count) { reserved_ = count; }
   // Empty, or what is wrong: the id has occurred before.
   std::string add(std::uint64_t id, std::size_t index);
   // The index, kNone or kLeftOut.
-  std::size_t find(std::uint64_t id) const;
+  std::size_t find(std::uint64_t id) const {
+    if (id < small_.size() && small_[static_cast<std::size_t>(id)] != kFree) return widened(small_[static_cast<std::size_t>(id)]);
+    return slots_.empty() ? kNone : findInSlots(id);
+  }
   // "there is no image 7"
   std::string unknown(std::uint64_t id) const;
 
  private:
+  static constexpr std::uint32_t kFree = static_cast<std::uint32_t>(-1), kSmallLeftOut = static_cast<std::uint32_t>(-2);
   struct Slot {
     std::uint64_t id;
     std::size_t index;  // kNone: free
   };
+  static std::size_t widened(std::uint32_t index) { return index == kSmallLeftOut ? kLeftOut : index; }
+  bool isSmall(std::uint64_t id, std::size_t index) const;
+  void addSmall(std::size_t id, std::size_t index);
+  void addSlot(std::uint64_t id, std::size_t index);
+  std::size_t findInSlots(std::uint64_t id) const;
   std::size_t firstSlot(std::uint64_t id) const { return static_cast<std::size_t>(id * 0x9e3779b97f4a7c15ULL >> shift_); }
   void grow();
 
   const char* kind_;
-  std::vector<Slot> slots_;  // a power of two of them, at most half of them taken
+  std::size_t reserved_ = 0, count_ = 0;
+  std::vector<std::uint32_t> small_;  // by id
+  std::vector<Slot> slots_;           // a power of two of them, at most half of them taken
   std::size_t taken_ = 0;
   int shift_ = 64;
 };
