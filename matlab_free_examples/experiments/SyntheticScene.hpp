@@ -61,7 +61,7 @@ inline SyntheticScene makeSyntheticScene(hybridgv::test::Random random, Motion m
     while (!isVisible(query, point) || !isVisible(camera, point)) point = random.vector(-5, 5);
     return point;
   };
-  const auto project = [&](const hybridgv::FocalPose& camera, const Vector3d& point) {
+  const auto imageOf = [&](const hybridgv::FocalPose& camera, const Vector3d& point) {
     const Vector3d error(random.normal(), random.normal(), 0);
     return Vector3d(project(camera, point).homogeneous() + noise.imagePx * error);
   };
@@ -73,13 +73,13 @@ inline SyntheticScene makeSyntheticScene(hybridgv::test::Random random, Motion m
     const int k = i < kRigCameras ? i : 0;
     const hybridgv::FocalPose& camera = rig[static_cast<std::size_t>(k)];
     const Vector3d point = visiblePoint(camera);
-    imagePoints2d2d.push_back(project(query, point));
-    bearings.push_back(project(camera, point).cwiseQuotient(Vector3d(camera.focalLength, camera.focalLength, 1)));
+    imagePoints2d2d.push_back(imageOf(query, point));
+    bearings.push_back(imageOf(camera, point).cwiseQuotient(Vector3d(camera.focalLength, camera.focalLength, 1)));
     cameras.push_back(k);
   }
   for (int i = 0; i < 4; ++i) {
     const Vector3d point = visiblePoint(query);
-    imagePoints2d3d.push_back(project(query, point));
+    imagePoints2d3d.push_back(imageOf(query, point));
     const Vector3d error(random.normal(), random.normal(), random.normal());
     points.push_back(point + noise.pointPercent / 100 * toCamera(query, point)[2] * error);
   }
