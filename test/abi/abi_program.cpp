@@ -83,7 +83,7 @@ Numbers opengvProblem(const hybrid_pose::HybridAdapterBase& adapter, const Focal
   Numbers numbers;
   core.distances(start, all, numbers);
   FocalPose model;
-  if (core.computeModel({{0}, {0, 1, 2}}, all, model)) append(numbers, core.optimize(core.split(all), model));
+  if (core.computeModel({{0}, {0, 1, 2}}, core.makePool(all), model)) append(numbers, core.optimize(core.split(all), model));
   return numbers;
 }
 
