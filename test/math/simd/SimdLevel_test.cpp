@@ -18,10 +18,9 @@ using math::simdLevel;
 using math::SimdLevel;
 using math::supportedSimdLevel;
 
-// The environment is read once, so each case runs in a process of its own.
+// The environment is read once, so each case runs in a process of its own: a copy of this one, which has not read it.
 template <class Condition>
 void expectWith(const char* requested, Condition condition) {
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {
         setenv("HYBRIDGV_SIMD", requested, 1);
