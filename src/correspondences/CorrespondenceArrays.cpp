@@ -124,12 +124,29 @@ void CorrespondenceArrays::fillPointColumns() {
   }
 }
 
-void CorrespondenceArrays::boundUnknownFocalLengths() {
-  const auto add = [this](double u, double v) {
-    leastFocalLength_ = std::max({leastFocalLength_, 2 * std::abs(u), 2 * std::abs(v)});
-  };
-  for (const RayMatch& match : rays_) add(match.u, match.v);
-  for (const PointMatch& match : points_) add(match.u, match.v);
+// About the width of the image: twice the largest coordinate, if the image points reach the image's border evenly. A few points far
+// away must not decide.
+double CorrespondenceArrays::imageSize() const {
+  constexpr double kShare = 0.95;
+  std::vector<double> coordinates;
+  for (const RayMatch& match : rays_) coordinates.push_back(std::max(std::abs(match.u), std::abs(match.v)));
+  for (const PointMatch& match : points_) coordinates.push_back(std::max(std::abs(match.u), std::abs(match.v)));
+  if (coordinates.empty()) return 0;
+  const auto quantile = coordinates.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(coordinates.size()));
+  std::nth_element(coordinates.begin(), quantile, coordinates.end());
+  return 2 * *quantile;
+}
+
+void CorrespondenceArrays::fixUnknownFocalLengths() {
+  const double g = imageSize();
+  if (!(g > 0)) return;
+  const std::size_t rows = padded(rays_.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    if (mapImagePoints_[i].focalLength > 0) continue;
+    mapImagePoints_[i].focalLength = g;
+    rayColumns_[11 * rows + i] = 1 / (g * g);
+    rayColumns_[12 * rows + i] = 0;
+  }
 }
 
 RayArrays CorrespondenceArrays::rayArrays() const {

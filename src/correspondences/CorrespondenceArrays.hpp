@@ -32,9 +32,9 @@ class CorrespondenceArrays {
   // Those with these indices, in their order: the same numbers, in the same normalized frame.
   CorrespondenceArrays subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const;
 
-  // A rig camera of unknown focal length then has at least twice the largest coordinate of the query's image points (about the
-  // width of the image) as its own. Without this, the Sampson error of any data vanishes as the query's focal length goes to 0.
-  void boundUnknownFocalLengths();
+  // A rig camera of unknown focal length then has about the width of the query's image as its own. It must not follow the query's
+  // focal length: the Sampson error of any data vanishes as that goes to 0, and falls as it grows.
+  void fixUnknownFocalLengths();
 
   const Normalization& normalization() const { return normalization_; }
   // In the order in which they were given, normalized.
@@ -49,6 +49,7 @@ class CorrespondenceArrays {
   CorrespondenceArrays() = default;
   void normalize();
   void fillRayColumns(const std::vector<RigRay>& rays);
+  double imageSize() const;
   void fillPointColumns();
 
   Normalization normalization_;

@@ -46,7 +46,7 @@ Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const Corresp
 CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
                                 const std::vector<int>& points) {
   CorrespondenceArrays arrays(adapter, rays, points);
-  arrays.boundUnknownFocalLengths();
+  arrays.fixUnknownFocalLengths();
   return arrays;
 }
 

@@ -62,7 +62,7 @@ struct HybridProblemCore::Data {
         arrays(correspondences),
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx) {
-    arrays.boundUnknownFocalLengths();
+    arrays.fixUnknownFocalLengths();
     checkPositive("maxReprojectionErrorPx", reprojectionPx);
     checkPositive("maxEpipolarErrorPx", epipolarPx);
     checkCount("2D-2D", count2d2d(), problem.rays(), problem.name());
