@@ -13,29 +13,41 @@ constexpr double kMaxShare = 0.5;
 // Natural log of the probability that a kind's inliers are chance, below which they are taken as more than that.
 constexpr double kLogMoreThanChance = -7;
 
-class BoundingBox {
+// The size of an image region that holds most of the points: a few wrong ones far away must not decide. It is the box that leaves out
+// a twentieth at each side, enlarged to the size that it would have for evenly spread points.
+class RobustBox {
  public:
   void add(double u, double v) {
-    minU_ = std::min(minU_, u);
-    maxU_ = std::max(maxU_, u);
-    minV_ = std::min(minV_, v);
-    maxV_ = std::max(maxV_, v);
+    u_.push_back(u);
+    v_.push_back(v);
   }
-  double area() const { return (maxU_ - minU_) * (maxV_ - minV_); }
-  double diagonal() const { return std::hypot(maxU_ - minU_, maxV_ - minV_); }
+  double area() const { return extent(u_) * extent(v_); }
+  double diagonal() const { return std::hypot(extent(u_), extent(v_)); }
 
  private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double minU_ = kInfinity, maxU_ = -kInfinity, minV_ = kInfinity, maxV_ = -kInfinity;
+  static double extent(std::vector<double> values) {
+    if (values.empty()) return 0;
+    constexpr double kLeftOut = 0.05;
+    const auto skip = static_cast<std::ptrdiff_t>(kLeftOut * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + skip, values.end());
+    const double low = values[static_cast<std::size_t>(skip)];
+    std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
+    const double high = *(values.end() - 1 - skip);
+    return (high - low) / (1 - 2 * static_cast<double>(skip) / static_cast<double>(values.size()));
+  }
+  std::vector<double> u_, v_;
 };
 
-double share(double part, double whole) { return whole > 0 ? std::min(part / whole, kMaxShare) : kMaxShare; }
+// Infinite if there is no whole.
+double share(double part, double whole) { return whole > 0 ? part / whole : std::numeric_limits<double>::infinity(); }
+
+double atMostHalf(double share) { return share < kMaxShare ? share : kMaxShare; }
 
 }  // namespace
 
 ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError)
     : leastFocalLength_(arrays.rayArrays().leastFocalLength) {
-  BoundingBox query, map;
+  RobustBox query, map;
   for (const correspondences::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
   for (const correspondences::PointMatch& match : arrays.points()) query.add(match.u, match.v);
   const double band = 2 * std::sqrt(2.) * maxEpipolarError;
@@ -52,10 +64,11 @@ ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarE
   }
 }
 
-double ChanceModel::rayShare(double focalLength) const {
-  const double sum = rayShareOfQuery_ + knownMapShare_ + unknownMapShare_ / std::max(focalLength, leastFocalLength_);
-  return sum < kMaxShare ? sum : kMaxShare;
+double ChanceModel::rayShare(double focalLength, double scale) const {
+  return atMostHalf(scale * (rayShareOfQuery_ + knownMapShare_ + unknownMapShare_ / std::max(focalLength, leastFocalLength_)));
 }
+
+double ChanceModel::pointShare(double scale) const { return atMostHalf(scale * scale * pointShare_); }
 
 double logTail(int n, int k, double p) {
   if (k <= n * p || n <= 0) return 0;
@@ -69,17 +82,21 @@ bool ChanceModel::raysAreMoreThanChance(int inliers, int all, double focalLength
 }
 
 bool ChanceModel::pointsAreMoreThanChance(int inliers, int all) const {
-  return logTail(all, inliers, pointShare_) < kLogMoreThanChance;
+  return logTail(all, inliers, pointShare()) < kLogMoreThanChance;
 }
 
 double ChanceModel::logProbability(const Support& support, double focalLength, int parameters) const {
+  return logProbability(support, rayShare(focalLength), pointShare(), parameters);
+}
+
+double ChanceModel::logProbability(const Support& support, double rayShare, double pointShare, int parameters) {
   double worst = -std::numeric_limits<double>::infinity();
   const int mostPoints = std::min((parameters + 1) / 2, support.points);
   for (int points = 0; points <= mostPoints; ++points) {
     const int rays = std::max(parameters - 2 * points, 0);
     if (rays > support.rays && points < mostPoints) continue;
-    worst = std::max(worst, logTail(support.allPoints - points, support.points - points, pointShare_) +
-                                logTail(support.allRays - rays, support.rays - rays, rayShare(focalLength)));
+    worst = std::max(worst, logTail(support.allPoints - points, support.points - points, pointShare) +
+                                logTail(support.allRays - rays, support.rays - rays, rayShare));
   }
   return worst / std::log(10.);
 }

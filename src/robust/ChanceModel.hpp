@@ -2,28 +2,24 @@
 #pragma once
 
 #include "correspondences/CorrespondenceArrays.hpp"
-#include "robust/Sampler.hpp"
+#include "robust/Evidence.hpp"
 
 namespace hybridgv {
 namespace robust {
 
 using correspondences::CorrespondenceArrays;
 
-// Numbers of inliers and of correspondences of both kinds.
-struct Support {
-  int points = 0, allPoints = 0, rays = 0, allRays = 0;
-};
-
 class ChanceModel {
  public:
-  // Outliers are taken as uniform over the bounding boxes of the image points. Then a wrong pose has the share pi T^2 / area of
+  // Outliers are taken as uniform over boxes that hold most of the image points. Then a wrong pose has the share pi T^2 / area of
   // the points as inliers, and of the rays at most the sum over both images of 2 sqrt(2) T diagonal / area: an epipolar line is
   // at most as long as the diagonal, and one of the images has at least half of the squared Sampson error.
   ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError);
 
   // For a pose with this focal length, which is the pixel of map images with unknown focal length.
-  double rayShare(double focalLength) const;
-  double pointShare() const { return pointShare_; }
+  // `scale`: of the thresholds.
+  double rayShare(double focalLength, double scale = 1) const;
+  double pointShare(double scale = 1) const;
 
   // Whether a pose has more inliers of a kind than a wrong one would have.
   bool raysAreMoreThanChance(int inliers, int all, double focalLength) const;
@@ -32,6 +28,8 @@ class ChanceModel {
   // Upper bound of the log10 of the probability that a wrong pose has at least this support, although it has been fitted:
   // `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
   double logProbability(const Support& support, double focalLength, int parameters) const;
+  // The same for shares of the kinds that are given.
+  static double logProbability(const Support& support, double rayShare, double pointShare, int parameters);
 
  private:
   double rayShareOfQuery_, pointShare_;

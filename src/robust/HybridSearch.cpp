@@ -21,6 +21,16 @@ constexpr double kLeastGain = 1;
 constexpr double kDistanceFactors[] = {1.25, 1.6, 0.8, 0.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
+// A standard deviation of log f below which the linear theory behind it can be relied on.
+constexpr double kSmallDeviation = 0.05;
+
+// Correspondences of one group may share errors: the rays of a rig camera; every point is a group of its own.
+JackknifeGroups groupsOf(const CorrespondenceArrays& arrays) {
+  JackknifeGroups groups;
+  for (const correspondences::RayMatch& ray : arrays.rays()) groups.rays.push_back(ray.camera);
+  groups.points = correspondences::allIndices(arrays.points().size());
+  return groups;
+}
 
 }  // namespace
 
@@ -32,8 +42,8 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       choice_(makeStrategies(options.solvers, data_.sampler)),
       scorer_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
       chance_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
-      significance_(chance_, data_.sampler, estimated().parameters()),
-      optimizer_(scorer_, chance_, options.minFocalLength, options.maxFocalLength, estimated()),
+      significance_(scorer_, chance_, data_.sampler, estimated().parameters(), options.seed),
+      optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated()),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()) {
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
@@ -126,12 +136,13 @@ void HybridSearch::consider(const Model& candidate) {
     ++localOptimizations_;
     replaceIfLikelier(optimizer_.refine(candidate.pose), optimized);
   }
-  if (isBetter(optimized)) setBest(optimized);
+  const bool isSignificant = significance_.isSignificant(optimized.pose);
+  if (isBetter(optimized, isSignificant)) setBest(optimized, isSignificant);
 }
 
 // A pose that is more than chance is better than one that is not; of optimized ones the likelier, otherwise the score decides.
-bool HybridSearch::isBetter(const Model& model) const {
-  if (isSignificant(model) != bestIsSignificant_) return !bestIsSignificant_;
+bool HybridSearch::isBetter(const Model& model, bool isSignificant) const {
+  if (isSignificant != bestIsSignificant_) return isSignificant;
   if (options_.localOptimization && hasModel()) return model.logLikelihood > best_.logLikelihood;
   return model.evaluation.score > best_.evaluation.score;
 }
@@ -156,9 +167,9 @@ void HybridSearch::escapeLocalOptimum(Model& model) const {
     }
 }
 
-void HybridSearch::setBest(const Model& model) {
+void HybridSearch::setBest(const Model& model, bool isSignificant) {
   best_ = model;
-  bestIsSignificant_ = isSignificant(model);
+  bestIsSignificant_ = isSignificant;
   if (bestIsSignificant_) learnFrom(model);
 }
 
@@ -180,10 +191,6 @@ InlierCounts HybridSearch::inlierCounts(const QueryPose& pose) const {
   return data_.sampler.count(inliers.rays, inliers.points);
 }
 
-bool HybridSearch::isSignificant(const Model& model) const {
-  return significance_.isSignificant(significance_.logChance(model.evaluation, model.pose.focalLength));
-}
-
 bool HybridSearch::isOutOfTime() const {
   return std::isfinite(options_.timeBudgetSeconds) &&
          std::chrono::duration<double>(Clock::now() - start_).count() > options_.timeBudgetSeconds;
@@ -202,15 +209,24 @@ bool HybridSearch::isDone() {
 }
 
 FinalPose HybridSearch::finish(bool optimize) {
-  if (optimize) escapeLocalOptimum(best_);
+  if (optimize && !optimizer_.focalLengthIsSure(best_.pose)) escapeLocalOptimum(best_);
   FinalPose result = optimizer_.polish(best_.pose, optimize);
   best_.pose = result.pose;
   best_.evaluation = scorer_.evaluate(best_.pose);
   return result;
 }
 
-sac::FailureReason HybridSearch::verdict(bool isRegular) const {
-  return significance_.verdict(best_.evaluation, best_.pose.focalLength, inlierCounts(best_.pose), isRegular);
+sac::FailureReason HybridSearch::verdict(const FinalPose& final) {
+  return significance_.verdict(best_.pose, best_.evaluation, inlierCounts(best_.pose), isDetermined(final));
+}
+
+// A large standard deviation is not exact: then the likelihood itself must fall on both sides.
+bool HybridSearch::isDetermined(const FinalPose& final) const {
+  if (!final.isRegular) return false;
+  const double deviation =
+      std::max(std::sqrt(varianceOfLogFocalLength(final.covariance, estimated())), final.deviationWithoutLevers);
+  if (!(deviation < options_.maxFocalLengthDeviation)) return false;
+  return deviation < kSmallDeviation || optimizer_.focalLengthIsDetermined(final);
 }
 
 }  // namespace robust

@@ -39,8 +39,8 @@ class HybridSearch {
   void run();
   // Final optimization of the best model (or only its noise and information).
   FinalPose finish(bool optimize);
-  // Whether the best model can be trusted (Significance).
-  sac::FailureReason verdict(bool isRegular) const;
+  // Whether the best model, as `finish` left it, can be trusted.
+  sac::FailureReason verdict(const FinalPose& final);
 
   bool hasModel() const { return best_.evaluation.score > 0; }
   const Model& best() const { return best_; }
@@ -76,13 +76,13 @@ class HybridSearch {
   void consider(const Model& candidate);
   void replaceIfLikelier(const QueryPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
-  void setBest(const Model& model);
+  void setBest(const Model& model, bool isSignificant);
   void learnFrom(const Model& model);
   bool isWorthConsidering(const Candidate& candidate);
-  bool isSignificant(const Model& model) const;
-  bool isBetter(const Model& model) const;
+  bool isBetter(const Model& model, bool isSignificant) const;
   bool isDone();
   bool isOutOfTime() const;
+  bool isDetermined(const FinalPose& final) const;
   InlierCounts inlierCounts(const QueryPose& pose) const;
 
   const sac::HybridRansacOptions& options_;

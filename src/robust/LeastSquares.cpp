@@ -149,6 +149,23 @@ ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose&
                        [&](auto size) { return ParameterMatrix(linearize<decltype(size)::value>(problem, pose).hessian); });
 }
 
+ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated) {
+  const int size = estimated.parameters();
+  ParameterMatrix result(size, size);
+  for (int row = 0; row < size; ++row)
+    for (int column = row; column < size; ++column)
+      result(row, column) = result(column, row) =
+          sums.hessian[kernelParameter(estimated, row)][kernelParameter(estimated, column)];
+  return result;
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostParameters, 1> estimatedGradient(const NormalEquations& sums,
+                                                                                                Intrinsics estimated) {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostParameters, 1> result(estimated.parameters());
+  for (int k = 0; k < estimated.parameters(); ++k) result[k] = sums.gradient[kernelParameter(estimated, k)];
+  return result;
+}
+
 ParameterMatrix byKernelParameters(const ParameterMatrix& matrix, Intrinsics estimated) {
   ParameterMatrix result = ParameterMatrix::Zero(kMostParameters, kMostParameters);
   for (int row = 0; row < matrix.rows(); ++row)

@@ -50,6 +50,11 @@ LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose&
 // J^T W J at a pose.
 ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose& pose);
 
+// Of the kernels' sums, what belongs to the parameters that are estimated.
+ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated);
+Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostParameters, 1> estimatedGradient(const NormalEquations& sums,
+                                                                                                Intrinsics estimated);
+
 // A matrix over all parameters by which the kernels derive, with zeros for those that are not estimated.
 ParameterMatrix byKernelParameters(const ParameterMatrix& matrix, Intrinsics estimated);
 

@@ -1,7 +1,6 @@
 #include "robust/Leverage.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "robust/toPlain.hpp"
 
@@ -14,21 +13,26 @@ constexpr double kMaxLeverage = 0.99;
 
 }  // namespace
 
-std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const QueryPose& pose) {
-  std::vector<double> leverages(correspondences::padded(problem.rays.size), 0);
-  ParameterMatrix covariance;
-  if (problem.kinds.rays && invertInformation(information(problem, pose), covariance)) {
-    const ParameterMatrix all = byKernelParameters(covariance, problem.estimated);
-    problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, all.data(), leverages.data());
-  }
-  leverages.resize(problem.rays.size);
-  return leverages;
+std::vector<double> predictedVariances(const LeastSquaresProblem& problem, const QueryPose& pose,
+                                       const ParameterMatrix& covariance) {
+  std::vector<double> variances(correspondences::padded(problem.rays.size), 0);
+  const ParameterMatrix all = byKernelParameters(covariance, problem.estimated);
+  problem.kernels->rayLeverages(problem.rays, toPlain(pose), problem.rayLoss, all.data(), variances.data());
+  variances.resize(problem.rays.size);
+  return variances;
 }
 
-correspondences::PaddedValues narrowingByLeverage(const LeastSquaresProblem& problem, const QueryPose& pose) {
+std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const QueryPose& pose) {
+  ParameterMatrix covariance;
+  if (problem.kinds.rays && invertInformation(information(problem, pose), covariance))
+    return predictedVariances(problem, pose, covariance);
+  return std::vector<double>(problem.rays.size, 0);
+}
+
+std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const QueryPose& pose) {
   std::vector<double> result = rayLeverages(problem, pose);
   for (double& value : result) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
-  return {std::move(result), 1};
+  return result;
 }
 
 }  // namespace robust

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
+#include <utility>
 
+#include "correspondences/PaddedValues.hpp"
 #include "robust/Leverage.hpp"
 
 namespace hybridgv {
@@ -21,6 +24,10 @@ constexpr double kLeastDeviation = 1e-6;
 // the other kind, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
 constexpr double kEnough = 20;
 constexpr double kExpectedPerThreshold = 1 / 2.5;
+// Loss of the log of the likelihood: 2.8 standard deviations.
+constexpr double kClearLoss = 4;
+// A standard deviation of log f for which a pose at another distance is out of reach.
+constexpr double kSureDeviation = 0.05;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
 constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
@@ -40,9 +47,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-double mean(const std::vector<double>& values) {
-  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
-}
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.); }
 
 // The variance of one kind's errors, of which `count` are known.
 struct Measured {
@@ -58,6 +63,20 @@ double deviation(const Measured& kind, const Measured& other) {
   const double expected = kind.threshold * std::min(expectedPerThreshold, kExpectedPerThreshold);
   const double variance = kind.known() * kind.variance + (1 - kind.known()) * expected * expected;
   return std::max(std::sqrt(variance), kLeastDeviation * kind.threshold);
+}
+
+// Standard deviations of the inliers' errors at a fitted pose, which has taken up as many equations as it has parameters: their mean
+// square is too small by that. A kind of which there are few is measured together with the other one.
+PerKind<double> fittedDeviations(const SquaredErrors& inliers, int parameters) {
+  const PerKind<double> equations{static_cast<double>(inliers.rays.size()), 2 * static_cast<double>(inliers.points.size())};
+  const double all = equations.rays + equations.points, excess = all / std::max(all - parameters, 1.0);
+  const PerKind<double> sums{sum(inliers.rays), sum(inliers.points)};
+  const double common = all > 0 ? (sums.rays + sums.points) / all : 0;
+  const auto deviation = [&](double sumOfKind, double ofKind) {
+    const double known = std::min(ofKind / kEnough, 1.0), own = ofKind > 0 ? sumOfKind / ofKind : 0;
+    return std::sqrt(excess * (known * own + (1 - known) * common));
+  };
+  return {deviation(sums.rays, equations.rays), deviation(sums.points, equations.points)};
 }
 
 KindLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
@@ -81,9 +100,14 @@ void allowForHiddenErrors(double& ray, double& point) {
 
 }  // namespace
 
-LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength,
-                               Intrinsics estimated)
-    : scorer_(scorer), chance_(chance), minFocalLength_(minFocalLength), maxFocalLength_(maxFocalLength), estimated_(estimated) {}
+LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
+                               double maxFocalLength, Intrinsics estimated)
+    : scorer_(scorer),
+      chance_(chance),
+      groups_(std::move(groups)),
+      minFocalLength_(minFocalLength),
+      maxFocalLength_(maxFocalLength),
+      estimated_(estimated) {}
 
 QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   struct Stage {
@@ -113,16 +137,82 @@ QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, 
 }
 
 QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
-                                        PaddedValues& narrowing) const {
+                                        RayTreatment& treatment) const {
   QueryPose pose = start;
-  narrowing = PaddedValues();
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
+    SquaredErrors errors = squaredErrors(pose, kinds);
+    treatment.leaveOut(errors.rays);
+    const Noise at = noise(errors, pose.focalLength);
     const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
-    narrowing = narrowingByLeverage(narrowed(robust, narrowing), pose);
+    pose = refuseLevers(robust, at, pose, steps, treatment);
+    const PaddedValues before = treatment.narrowing();
+    treatment.setNarrowing(narrowingByLeverage(narrowed(robust, before), pose));
+    const PaddedValues narrowing = treatment.narrowing();
     pose = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   }
   return pose;
+}
+
+// A lever must be predicted by the other correspondences. By the pose without it, its error has a variance v, in units of the noise's;
+// the odds that it is an inlier are then those of an error 1 / sqrt(v) as large, in a range that is sqrt(v) times as wide. A ray that
+// is predicted to +- 30 standard deviations agrees by chance 30 times more easily than one predicted to +- 1.
+QueryPose LocalOptimizer::refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start,
+                                       const Steps& steps, RayTreatment& treatment) const {
+  const std::vector<std::size_t> levers = leversOf(robust, start, treatment);
+  if (levers.empty()) return start;
+  RayTreatment without = treatment;
+  without.refuse(levers);
+  const PaddedValues narrowing = without.narrowing();
+  const QueryPose pose = minimize(narrowed(robust, narrowing), start, limits(steps)).pose;
+  ParameterMatrix covariance;
+  if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds), narrowing), pose), covariance)) return start;
+
+  LeastSquaresProblem inUnitsOfNoise = robust;
+  inUnitsOfNoise.rayLoss = {Loss::Quadratic, 1, 1 / (noise.rays.deviation * noise.rays.deviation)};
+  const std::vector<double> predicted = predictedVariances(inUnitsOfNoise, pose, covariance);
+  const std::vector<double> errors = scorer_.squaredRayErrors(pose);
+  std::vector<std::size_t> refused;
+  for (const std::size_t i : levers) {
+    const double v = 1 + predicted[i], x = errors[i] / (v * noise.rays.scale * noise.rays.scale);
+    if (!(noise.rays.odds / (std::sqrt(v) * std::pow(1 + x, 8)) > 1)) refused.push_back(i);
+  }
+  if (refused.empty()) return start;
+  treatment.refuse(refused);
+  return pose;
+}
+
+double LocalOptimizer::deviationWithoutLevers(const LeastSquaresProblem& inliers, const QueryPose& pose,
+                                              RayTreatment treatment) const {
+  treatment.refuse(leversOf(inliers, pose, treatment));
+  const PaddedValues narrowing = treatment.narrowing();
+  ParameterMatrix covariance;
+  if (!invertInformation(information(narrowed(inliers, narrowing), pose), covariance))
+    return std::numeric_limits<double>::infinity();
+  return std::sqrt(varianceOfLogFocalLength(covariance, estimated_));
+}
+
+bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
+  const Kinds kinds = moreThanChance(pose);
+  const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
+  ParameterMatrix covariance;
+  return invertInformation(information(likelierInliers(at, kinds), pose), covariance) &&
+         varianceOfLogFocalLength(covariance, estimated_) < kSureDeviation * kSureDeviation;
+}
+
+bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
+  const Kinds kinds = moreThanChance(final.pose);
+  const auto logLikelihoodAt = [&](const QueryPose& pose) {
+    const SquaredErrors errors = squaredErrors(pose, kinds);
+    return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points);
+  };
+  LeastSquaresProblem atFixedFocalLength = problem(final.noise.rays.loss(), final.noise.points.loss(), kinds);
+  atFixedFocalLength.estimated.focalLength = false;
+  const double best = logLikelihoodAt(final.pose);
+  const auto fallsAt = [&](double factor) {
+    const QueryPose start = atDistance(final.pose, factor);
+    return best - logLikelihoodAt(minimize(atFixedFocalLength, start, limits({20, 1e-4})).pose) >= kClearLoss;
+  };
+  return fallsAt(0.5) && fallsAt(2);
 }
 
 QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {
@@ -183,11 +273,41 @@ Noise LocalOptimizer::noise(const SquaredErrors& errors, double focalLength) con
   std::vector<double> rays = below(errors.rays, maxRay), points = below(errors.points, maxPoint);
   const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
   const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
-  double ray = deviation(measuredRays, measuredPoints), point = deviation(measuredPoints, measuredRays);
-  if (!rays.empty() && !points.empty()) allowForHiddenErrors(ray, point);
+  return mixtures({deviation(measuredRays, measuredPoints), deviation(measuredPoints, measuredRays)},
+                  {rays.size(), points.size()}, focalLength);
+}
+
+Noise LocalOptimizer::mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers, double focalLength) const {
+  if (inliers.rays > 0 && inliers.points > 0) allowForHiddenErrors(deviations.rays, deviations.points);
   const CorrespondenceArrays& arrays = scorer_.arrays();
-  return {rayMixture(ray, {rays.size(), arrays.rays().size(), maxRay, chance_.rayShare(focalLength)}),
-          pointMixture(point, {points.size(), arrays.points().size(), maxPoint, chance_.pointShare()})};
+  return {rayMixture(deviations.rays,
+                     {inliers.rays, arrays.rays().size(), scorer_.maxEpipolarError(), chance_.rayShare(focalLength)}),
+          pointMixture(deviations.points,
+                       {inliers.points, arrays.points().size(), scorer_.maxReprojectionError(), chance_.pointShare()})};
+}
+
+// The deviations follow from all errors that are more likely an inlier's, not from the median error; which these are depends on the
+// deviations.
+Noise LocalOptimizer::finalNoise(const SquaredErrors& errors, double focalLength) const {
+  constexpr int kRounds = 3;
+  const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
+  const PerKind<std::size_t> inliers{below(errors.rays, maxRay).size(), below(errors.points, maxPoint).size()};
+  Noise result = noise(errors, focalLength);
+  for (int round = 0; round < kRounds; ++round) {
+    const SquaredErrors likelier{below(errors.rays, result.rays.boundary), below(errors.points, result.points.boundary)};
+    PerKind<double> deviations = fittedDeviations(likelier, estimated_.parameters());
+    deviations.rays = std::max(deviations.rays, kLeastDeviation * maxRay);
+    deviations.points = std::max(deviations.points, kLeastDeviation * maxPoint);
+    result = mixtures(deviations, inliers, focalLength);
+    result.rays.deviation = deviations.rays;
+    result.points.deviation = deviations.points;
+  }
+  return result;
+}
+
+LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Kinds& kinds) const {
+  return problem(truncatedLoss(noise.rays.boundary, noise.rays.deviation),
+                 truncatedLoss(noise.points.boundary, noise.points.deviation), kinds);
 }
 
 double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
@@ -199,22 +319,17 @@ double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
 FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   FinalPose result;
   const Kinds kinds = moreThanChance(start);
-  PaddedValues narrowing;
+  RayTreatment treatment(scorer_.arrays().rays().size());
   constexpr Steps kFine{20, 1e-8};
-  result.pose = optimize ? withoutLevers(likeliest(start, kinds, 1, kFine), kinds, 3, kFine, narrowing) : start;
-  // The uncertainty of the pose follows from all errors that are more likely an inlier's, not from the median error.
-  const SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
-  result.noise = noise(errors, result.pose.focalLength);
-  ErrorMixture &ray = result.noise.rays, &point = result.noise.points;
-  const std::vector<double> rays = below(errors.rays, ray.boundary);
-  const std::vector<double> points = below(errors.points, point.boundary);
-  const Measured measuredRays{mean(rays), scorer_.maxEpipolarError(), rays.size()};
-  const Measured measuredPoints{mean(points) / 2, scorer_.maxReprojectionError(), points.size()};
-  ray.deviation = deviation(measuredRays, measuredPoints);
-  point.deviation = deviation(measuredPoints, measuredRays);
-  const LeastSquaresProblem inliers =
-      problem(truncatedLoss(ray.boundary, ray.deviation), truncatedLoss(point.boundary, point.deviation), kinds);
-  result.information = information(narrowed(inliers, narrowing), result.pose);
+  result.pose = optimize ? withoutLevers(likeliest(start, kinds, 1, kFine), kinds, 3, kFine, treatment) : start;
+  SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
+  treatment.leaveOut(errors.rays);
+  result.refusedRays = treatment.refused();
+  result.noise = finalNoise(errors, result.pose.focalLength);
+  const PaddedValues narrowing = treatment.narrowing();
+  const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, kinds), narrowing);
+  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, information(inliers, result.pose), result.covariance);
+  result.deviationWithoutLevers = deviationWithoutLevers(likelierInliers(result.noise, kinds), result.pose, treatment);
   return result;
 }
 

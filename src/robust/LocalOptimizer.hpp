@@ -1,10 +1,11 @@
 // Local optimization of a pose over the inliers of both kinds.
 #pragma once
 
-#include "correspondences/PaddedValues.hpp"
 #include "robust/ChanceModel.hpp"
 #include "robust/ErrorMixture.hpp"
+#include "robust/Jackknife.hpp"
 #include "robust/LeastSquares.hpp"
+#include "robust/Levers.hpp"
 #include "robust/PoseScorer.hpp"
 
 namespace hybridgv {
@@ -16,23 +17,30 @@ using Noise = PerKind<ErrorMixture>;
 struct FinalPose {
   QueryPose pose;
   Noise noise;
-  ParameterMatrix information;  // for this noise
+  bool isRegular = false;                // the inliers fix all parameters
+  ParameterMatrix covariance;            // for this noise, and for errors that groups of inliers share (Jackknife.hpp)
+  double deviationWithoutLevers = 0;     // of log f, if rays with large leverages are left out
+  std::vector<std::size_t> refusedRays;  // are no inliers, whatever their errors
 };
 
 class LocalOptimizer {
  public:
-  // The scorer and the chance model must outlive the optimizer.
-  LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, double minFocalLength, double maxFocalLength,
-                 Intrinsics estimated = {});
+  // The scorer and the chance model must outlive the optimizer. `groups`: of correspondences that share errors.
+  LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
+                 double maxFocalLength, Intrinsics estimated = {});
 
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
   // wide, because a solution from noisy points is far from most viewing rays, and narrows down to the thresholds.
   QueryPose refine(const QueryPose& start) const;
   // To a local optimum of the likelihood; the noise of each kind is estimated on the way.
   QueryPose settle(const QueryPose& start, const Kinds& kinds) const;
-  // The same to full precision, then with single rays kept from deciding alone (narrowingByLeverage). Without `optimize` only the
-  // noise and the information of the start.
+  // The same to full precision, then with single rays kept from deciding alone (Levers.hpp, Leverage.hpp). Without `optimize` only
+  // the noise and the covariance of the start.
   FinalPose polish(const QueryPose& start, bool optimize) const;
+  // Whether the deviation of the focal length is so small that no other optimum can be near.
+  bool focalLengthIsSure(const QueryPose& pose) const;
+  // Whether the likelihood falls clearly where the focal length is half or twice as large.
+  bool focalLengthIsDetermined(const FinalPose& final) const;
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
   // focal length. Without points the origin stands for them.
   QueryPose atDistance(const QueryPose& pose, double factor) const;
@@ -45,6 +53,10 @@ class LocalOptimizer {
   // A kind that is not used counts as absent.
   SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds) const;
   Noise noise(const SquaredErrors& errors, double focalLength) const;
+  Noise finalNoise(const SquaredErrors& errors, double focalLength) const;
+  // For these standard deviations of the errors [px] and numbers of inliers.
+  Noise mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers, double focalLength) const;
+  LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
 
   struct Steps {
     int iterations;
@@ -53,14 +65,19 @@ class LocalOptimizer {
   QueryPose minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const QueryPose& start, const Kinds& kinds,
                       const Steps& steps) const;
   QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
-  // The same with narrowed losses of the rays, which are returned (see RayArrays; empty without rounds).
+  // The same with narrowed losses of the rays, and without those that are refused.
   QueryPose withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
-                          correspondences::PaddedValues& narrowing) const;
+                          RayTreatment& treatment) const;
+  // Refuses levers that the other correspondences do not predict; the pose without them.
+  QueryPose refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start, const Steps& steps,
+                         RayTreatment& treatment) const;
+  double deviationWithoutLevers(const LeastSquaresProblem& inliers, const QueryPose& pose, RayTreatment treatment) const;
   LeastSquaresOptions limits(const Steps& steps) const;
   LeastSquaresProblem problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const;
 
   const PoseScorer& scorer_;
   const ChanceModel& chance_;
+  JackknifeGroups groups_;
   double minFocalLength_, maxFocalLength_;
   Intrinsics estimated_;
 };

@@ -1,58 +1,161 @@
 #include "robust/Significance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+
+#include "correspondences/Intrinsics.hpp"
+#include "robust/toPlain.hpp"
 
 namespace hybridgv {
 namespace robust {
 namespace {
 
-// log10 of the expected number of wrong poses that look like the result.
-constexpr double kLogFalseAlarms = -6;
-// The same without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
+using SquaredErrors = PerKind<std::vector<double>>;
+
+// log10 of the expected number of wrong poses that look like the result; and if they had the larger shares of inliers that pairs of
+// neighbours have, which most of them have not.
+constexpr double kLogFalseAlarms = -6, kLogFalseAlarmsOfNeighbours = -2;
+// The first without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
 // every way, and up to half of them are inliers there.
 constexpr double kLogFalseAlarmsOfRays = -25;
 
+Shares largest(const Shares& a, const Shares& b) {
+  Shares result;
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    result.rays[level] = std::max(a.rays[level], b.rays[level]);
+    result.points[level] = std::max(a.points[level], b.points[level]);
+  }
+  return result;
+}
+
+double thresholdAt(double threshold, int level) { return std::ldexp(threshold, -level); }
+
+// ChanceModel::logProbability at every two levels, if every correspondence counts. The tails of the binomial distributions, of which
+// it is made up, are computed once.
+class LevelTails {
+ public:
+  LevelTails(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares)
+      : inliers_(countLevels(squaredErrors.data(), squaredErrors.size(), threshold * threshold)) {
+    const int all = static_cast<int>(squaredErrors.size());
+    for (std::size_t level = 0; level < kLevels; ++level)
+      for (int fitted = 0; fitted <= correspondences::kMostParameters; ++fitted)
+        tails_[level][static_cast<std::size_t>(fitted)] = logTail(all - fitted, inliers_[level] - fitted, shares[level]);
+  }
+  int inliers(int level) const { return inliers_[static_cast<std::size_t>(level)]; }
+  double tail(int level, int fitted) const { return tails_[static_cast<std::size_t>(level)][static_cast<std::size_t>(fitted)]; }
+
+ private:
+  LevelCounts inliers_;
+  std::array<std::array<double, correspondences::kMostParameters + 1>, kLevels> tails_{};
+};
+
+double logProbability(const LevelTails& rays, const LevelTails& points, const PerKind<int>& levels, int parameters) {
+  double worst = -std::numeric_limits<double>::infinity();
+  const int mostPoints = std::min((parameters + 1) / 2, points.inliers(levels.points));
+  for (int fittedPoints = 0; fittedPoints <= mostPoints; ++fittedPoints) {
+    const int fittedRays = std::max(parameters - 2 * fittedPoints, 0);
+    if (fittedRays > rays.inliers(levels.rays) && fittedPoints < mostPoints) continue;
+    worst = std::max(worst, points.tail(levels.points, fittedPoints) + rays.tail(levels.rays, fittedRays));
+  }
+  return worst / std::log(10.);
+}
+
+std::vector<char> below(const std::vector<double>& squaredErrors, double threshold) {
+  std::vector<char> mask(squaredErrors.size());
+  std::transform(squaredErrors.begin(), squaredErrors.end(), mask.begin(),
+                 [=](double error) { return static_cast<char>(error < threshold * threshold); });
+  return mask;
+}
+
 }  // namespace
 
-Significance::Significance(const ChanceModel& chance, const Sampler& sampler, int parameters)
-    : chance_(chance), sampler_(sampler), parameters_(parameters) {}
+Significance::Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, int parameters,
+                           std::uint64_t seed)
+    : scorer_(scorer), chance_(chance), sampler_(sampler), parameters_(parameters), seed_(seed), evidence_(scorer.arrays()) {}
 
 void Significance::setSamples(int samples) { logSamples_ = std::log10(samples + 1.); }
 
-Support Significance::support(const Evaluation& evaluation) const {
-  return {evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
-}
-
 double Significance::logChance(const Evaluation& evaluation, double focalLength) const {
-  return chance_.logProbability(support(evaluation), focalLength, parameters_);
+  const Support support{evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
+  return chance_.logProbability(support, focalLength, parameters_);
 }
 
 bool Significance::isPromising(double logChance) const { return logAlarms(logChance) < 0; }
 
-bool Significance::isSignificant(double logChance) const { return logAlarms(logChance) < kLogFalseAlarms; }
+bool Significance::isSignificant(const QueryPose& pose) { return isLessLikelyThan(kLogFalseAlarms, pose); }
 
-bool Significance::isMoreThanChance(const Evaluation& evaluation, double focalLength) const {
-  const bool hasPoints = chance_.pointsAreMoreThanChance(evaluation.points, sampler_.numberPoints());
-  return logAlarms(logChance(evaluation, focalLength)) < (hasPoints ? kLogFalseAlarms : kLogFalseAlarmsOfRays);
+bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose) {
+  const SquaredErrors errors{scorer_.squaredRayErrors(pose), scorer_.squaredPointErrors(pose)};
+  const PlainPose plain = toPlain(pose);
+  const auto sharesOf = [&](const OtherPairs& pairs) {
+    return pairs.shares(plain, scorer_.maxEpipolarError(), scorer_.maxReprojectionError());
+  };
+  Shares shares = uniformShares(pose.focalLength);
+  if (!isLessLikelyThan(logFalseAlarms, errors, shares)) return false;
+  if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), seed_);
+  shares = largest(shares, sharesOf(*randomPairs_));
+  if (!isLessLikelyThan(logFalseAlarms, errors, shares)) return false;
+  if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_);
+  shares = largest(shares, sharesOf(*neighbours_));
+  return isLessLikelyThan(kLogFalseAlarmsOfNeighbours, errors, shares);
+}
+
+bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& errors, const Shares& shares) const {
+  struct Choice {
+    double logProbability;
+    PerKind<int> levels;
+  };
+  const LevelTails rays(errors.rays, scorer_.maxEpipolarError(), shares.rays);
+  const LevelTails points(errors.points, scorer_.maxReprojectionError(), shares.points);
+  // One of so many choices of the two levels is the best by chance.
+  const double logBound = logFalseAlarms - logSamples_ - std::log10(static_cast<double>(kLevels) * kLevels);
+  std::vector<Choice> choices;
+  for (int a = 0; a < kLevels; ++a)
+    for (int b = 0; b < kLevels; ++b) {
+      const PerKind<int> levels{a, b};
+      const double probability = logProbability(rays, points, levels, parameters_);
+      if (probability < logBound) choices.push_back({probability, levels});
+    }
+  std::sort(choices.begin(), choices.end(), [](const Choice& x, const Choice& y) { return x.logProbability < y.logProbability; });
+  return std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
+    const Support different = evidence_.support(inliersAt(errors, choice.levels));
+    const double rayShare = shares.rays[static_cast<std::size_t>(choice.levels.rays)];
+    const double pointShare = shares.points[static_cast<std::size_t>(choice.levels.points)];
+    return ChanceModel::logProbability(different, rayShare, pointShare, parameters_) < logBound;
+  });
+}
+
+Shares Significance::uniformShares(double focalLength) const {
+  Shares result;
+  for (int level = 0; level < kLevels; ++level) {
+    result.rays[static_cast<std::size_t>(level)] = chance_.rayShare(focalLength, thresholdAt(1, level));
+    result.points[static_cast<std::size_t>(level)] = chance_.pointShare(thresholdAt(1, level));
+  }
+  return result;
+}
+
+InlierMasks Significance::inliersAt(const SquaredErrors& errors, const PerKind<int>& levels) const {
+  return {below(errors.rays, thresholdAt(scorer_.maxEpipolarError(), levels.rays)),
+          below(errors.points, thresholdAt(scorer_.maxReprojectionError(), levels.points))};
 }
 
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
 // chance, with one parameter left to fit.
-bool Significance::hasFixedScale(const Evaluation& evaluation, double focalLength, const InlierCounts& inliers) const {
+bool Significance::hasFixedScale(const QueryPose& pose, const InlierCounts& inliers) const {
   const std::vector<int>& perCamera = inliers.raysPerCamera;
   const auto largest = std::max_element(perCamera.begin(), perCamera.end());
   if (largest == perCamera.end() || *largest < parameters_ - 1) return true;
-  Support rest = support(evaluation);
-  rest.rays -= *largest;
-  rest.allRays -= sampler_.numberRays(static_cast<std::size_t>(largest - perCamera.begin()));
-  return logAlarms(chance_.logProbability(rest, focalLength, 1)) < kLogFalseAlarms;
+  const Support rest = evidence_.supportWithoutCamera(scorer_.inliers(pose), static_cast<int>(largest - perCamera.begin()));
+  return logAlarms(chance_.logProbability(rest, pose.focalLength, 1)) < kLogFalseAlarms;
 }
 
-sac::FailureReason Significance::verdict(const Evaluation& evaluation, double focalLength, const InlierCounts& inliers,
-                                         bool isRegular) const {
-  if (!isMoreThanChance(evaluation, focalLength)) return sac::FailureReason::InliersMayBeChance;
-  if (!isRegular || !hasFixedScale(evaluation, focalLength, inliers)) return sac::FailureReason::UndeterminedPose;
+sac::FailureReason Significance::verdict(const QueryPose& pose, const Evaluation& evaluation, const InlierCounts& inliers,
+                                         bool isDetermined) {
+  const bool hasPoints = chance_.pointsAreMoreThanChance(evaluation.points, sampler_.numberPoints());
+  if (!isLessLikelyThan(hasPoints ? kLogFalseAlarms : kLogFalseAlarmsOfRays, pose)) return sac::FailureReason::InliersMayBeChance;
+  if (!isDetermined || !hasFixedScale(pose, inliers)) return sac::FailureReason::UndeterminedPose;
   return sac::FailureReason::None;
 }
 

@@ -1,43 +1,61 @@
 // Whether a pose can be trusted: its inliers are too many to be chance, and fix it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/ChanceModel.hpp"
+#include "robust/Evidence.hpp"
+#include "robust/OtherPairs.hpp"
 #include "robust/PoseScorer.hpp"
+#include "robust/Sampler.hpp"
 
 namespace hybridgv {
 namespace robust {
 
 // Of many wrong poses some look good by chance. What counts is therefore the expected number of wrong poses, among those tried so
 // far, that look as good as the pose in question: the probability that one does times their number.
+//
+// For a minimal solution that probability follows from its inliers and the extents of the images (ChanceModel), which is fast. For a
+// pose that is to be believed it is the smallest one over the thresholds T, T/2, T/4, .. of both kinds, of its *different* inliers
+// (Evidence), with the shares of inliers that other pairs of the same data have (OtherPairs) where these are larger.
 class Significance {
  public:
-  // The chance model and the sampler must outlive the object. `parameters`: of a pose, as they are fitted to its inliers.
-  Significance(const ChanceModel& chance, const Sampler& sampler, int parameters);
+  // The scorer, the chance model and the sampler must outlive the object. `parameters`: of a pose, as they are fitted to its inliers.
+  Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, int parameters, std::uint64_t seed);
 
   // Tells how many samples have been drawn so far.
   void setSamples(int samples);
 
-  // log10 of the probability that a wrong pose looks as good as one with these inliers and this focal length.
+  // log10 of the probability that a wrong pose looks as good as a minimal solution with these inliers and this focal length.
   double logChance(const Evaluation& evaluation, double focalLength) const;
-  // Whether less than one wrong pose is expected to look as good: the pose deserves a closer look.
+  // Whether less than one wrong pose is expected to look as good: the solution deserves a closer look.
   bool isPromising(double logChance) const;
   // Whether chance is as good as excluded.
-  bool isSignificant(double logChance) const;
-  // Whether the pose can be trusted at last, else why not. `isRegular`: its information matrix is.
-  sac::FailureReason verdict(const Evaluation& evaluation, double focalLength, const InlierCounts& inliers, bool isRegular) const;
+  bool isSignificant(const QueryPose& pose);
+  // Whether the pose can be trusted at last, else why not. `isDetermined`: its inliers fix all parameters.
+  sac::FailureReason verdict(const QueryPose& pose, const Evaluation& evaluation, const InlierCounts& inliers, bool isDetermined);
 
  private:
-  Support support(const Evaluation& evaluation) const;
   // log10 of the expected number of wrong poses that look as good.
   double logAlarms(double logChance) const { return logChance + logSamples_; }
-  bool isMoreThanChance(const Evaluation& evaluation, double focalLength) const;
-  bool hasFixedScale(const Evaluation& evaluation, double focalLength, const InlierCounts& inliers) const;
+  bool isLessLikelyThan(double logFalseAlarms, const QueryPose& pose);
+  // For the shares of inliers that wrong poses have.
+  bool isLessLikelyThan(double logFalseAlarms, const PerKind<std::vector<double>>& squaredErrors, const Shares& shares) const;
+  Shares uniformShares(double focalLength) const;
+  InlierMasks inliersAt(const PerKind<std::vector<double>>& squaredErrors, const PerKind<int>& levels) const;
+  bool hasFixedScale(const QueryPose& pose, const InlierCounts& inliers) const;
 
+  const PoseScorer& scorer_;
   const ChanceModel& chance_;
   const Sampler& sampler_;
   int parameters_;
+  std::uint64_t seed_;
   double logSamples_ = 0;
+  Evidence evidence_;
+  // Made when they are first needed.
+  std::optional<OtherPairs> randomPairs_, neighbours_;
 };
 
 }  // namespace robust

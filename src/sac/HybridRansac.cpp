@@ -23,6 +23,15 @@ void setMasks(const robust::HybridSearch& search, HybridRansacResult& result) {
   result.numberInliers2d3d = setMask(inliers.points, search.data().pointIndices, result.inliers2d3d);
 }
 
+// Rays that are no inliers although their errors are small.
+void takeOut(const std::vector<std::size_t>& rays, const std::vector<int>& indices, HybridRansacResult& result) {
+  for (const std::size_t ray : rays) {
+    char& inlier = result.inliers2d2d[static_cast<std::size_t>(indices[ray])];
+    result.numberInliers2d2d -= inlier;
+    inlier = 0;
+  }
+}
+
 // From the normalized frame to the rig's, where positions are `unit` times larger.
 void setCovariance(const robust::ParameterMatrix& normalized, double unit, robust::Intrinsics estimated,
                    HybridRansacResult& result) {
@@ -49,10 +58,9 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   result.score = search.best().evaluation.score;
   result.solver = search.best().solver;
   setMasks(search, result);
-  robust::ParameterMatrix covariance;
-  const bool determined = robust::invertInformation(final.information, covariance);
-  if (determined) setCovariance(covariance, normalization.unit, search.estimated(), result);
-  result.failureReason = search.verdict(determined);
+  takeOut(final.refusedRays, search.data().rayIndices, result);
+  if (final.isRegular) setCovariance(final.covariance, normalization.unit, search.estimated(), result);
+  result.failureReason = search.verdict(final);
   result.success = result.failureReason == FailureReason::None;
 }
 

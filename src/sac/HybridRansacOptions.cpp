@@ -43,6 +43,7 @@ void HybridRansacOptions::check() const {
   require(minFocalLength >= 0 && std::isfinite(minFocalLength), "minFocalLength", minFocalLength, "finite and not negative");
   require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength,
           ("greater than minFocalLength (" + detail::format(minFocalLength) + ")").c_str());
+  require(positiveFinite(maxFocalLengthDeviation), "maxFocalLengthDeviation", maxFocalLengthDeviation, "positive and finite");
   require(threads >= 0, "threads", threads, "0 (all cores) or positive");
   if (solvers.empty() && !initialPose) throwInvalid("options.solvers", "empty, and there is no initialPose");
   for (const SolverPrior& entry : solvers) requireListed(allSolvers(), "solvers", entry.solver);

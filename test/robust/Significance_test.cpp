@@ -12,23 +12,19 @@ using sac::FailureReason;
 
 constexpr double kFocalLength = 1000;
 
-// 150 rays of five cameras, 100 points.
+// 150 rays of five cameras, 100 points, most of them right.
 class SignificanceTest : public testing::Test {
  protected:
-  static constexpr int kRays = 150, kPoints = 100, kCameras = 5;
+  static constexpr int kRays = 150, kPoints = 100;
 
-  static NoncentralHybridAdapter makeAdapter() {
+  static test::HybridScene makeScene() {
     test::Random random(test::testSeed(), 130);
     test::SceneOptions options;
     options.rays = kRays;
     options.points = kPoints;
-    options.cameras = kCameras;
-    return test::makeHybridScene(random, options).adapter();
-  }
-  std::vector<int> cameras() const {
-    std::vector<int> result;
-    for (const correspondences::RayMatch& ray : arrays.rays()) result.push_back(ray.camera);
-    return result;
+    options.imageNoise = 1;
+    options.outlierShareRays = options.outlierSharePoints = 0.2;
+    return test::makeHybridScene(random, options);
   }
   static Evaluation inliers(int rays, int points) {
     Evaluation result;
@@ -36,15 +32,24 @@ class SignificanceTest : public testing::Test {
     result.points = points;
     return result;
   }
-  FailureReason verdict(const InlierCounts& counts, bool isRegular = true) const {
-    return significance.verdict(inliers(counts.rays, counts.points), kFocalLength, counts, isRegular);
+  QueryPose truth() const { return arrays.normalization().apply(scene.truth); }
+  QueryPose wrongPose() const {
+    QueryPose pose = truth();
+    pose.rotation = pose.rotation * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    return pose;
+  }
+  FailureReason verdict(const QueryPose& pose, bool isDetermined = true) {
+    const PerKind<std::vector<char>> masks = scorer.inliers(pose);
+    return significance.verdict(pose, scorer.evaluate(pose), sampler.count(masks.rays, masks.points), isDetermined);
   }
 
-  NoncentralHybridAdapter adapter = makeAdapter();
+  test::HybridScene scene = makeScene();
+  NoncentralHybridAdapter adapter = scene.adapter();
   correspondences::CorrespondenceArrays arrays{adapter, correspondences::allIndices(kRays), correspondences::allIndices(kPoints)};
-  Sampler sampler{cameras(), correspondences::allIndices(kRays), correspondences::allIndices(kPoints), false};
+  PoseScorer scorer{arrays, 4, 6, sac::Scoring::Msac};
+  Sampler sampler{scene.cameras, correspondences::allIndices(kRays), correspondences::allIndices(kPoints), false};
   ChanceModel chance{arrays, 4, 6};
-  Significance significance{chance, sampler, 7};
+  Significance significance{scorer, chance, sampler, 7, 1};
 };
 
 TEST_F(SignificanceTest, GrowsWithTheInliersOfEitherKind) {
@@ -58,40 +63,38 @@ TEST_F(SignificanceTest, GrowsWithTheInliersOfEitherKind) {
 }
 
 TEST_F(SignificanceTest, OfTheSameInliersIsLessTheMoreSamplesWereDrawn) {
-  const double logChance = -7;
-  EXPECT_TRUE(significance.isSignificant(logChance));
-  significance.setSamples(9);
-  EXPECT_FALSE(significance.isSignificant(logChance)) << "ten poses, each with probability 1e-7, are expected 1e-6 times";
-  EXPECT_TRUE(significance.isPromising(logChance));
+  EXPECT_TRUE(significance.isPromising(-7)) << "a pose with probability 1e-7 is not expected to be chance";
   significance.setSamples(100000000);
-  EXPECT_FALSE(significance.isPromising(logChance));
+  EXPECT_FALSE(significance.isPromising(-7));
+}
+
+TEST_F(SignificanceTest, OfTheTrueAndOfAWrongPose) {
+  EXPECT_TRUE(significance.isSignificant(truth()));
+  EXPECT_FALSE(significance.isSignificant(wrongPose()));
 }
 
 TEST_F(SignificanceTest, VerdictSaysWhyAPoseCannotBeTrusted) {
-  InlierCounts good;
-  good.points = 60;
-  good.rays = 100;
-  good.raysPerCamera = {20, 20, 20, 20, 20};
-  EXPECT_EQ(verdict(good), FailureReason::None);
-  EXPECT_EQ(verdict(good, false), FailureReason::UndeterminedPose);
-
-  InlierCounts few;
-  few.points = 4;
-  few.raysPerCamera = {0, 0, 0, 0, 0};
-  EXPECT_EQ(verdict(few), FailureReason::InliersMayBeChance);
-  EXPECT_EQ(verdict(few, false), FailureReason::InliersMayBeChance) << "the graver reason";
+  EXPECT_EQ(verdict(truth()), FailureReason::None);
+  EXPECT_EQ(verdict(truth(), false), FailureReason::UndeterminedPose);
+  EXPECT_EQ(verdict(wrongPose()), FailureReason::InliersMayBeChance);
+  EXPECT_EQ(verdict(wrongPose(), false), FailureReason::InliersMayBeChance) << "the graver reason";
 }
 
+// Every correspondence of one rig camera, and of the others and of the points none that is right.
 TEST_F(SignificanceTest, RaysOfOneCameraAloneDoNotFixTheScale) {
-  InlierCounts counts;
-  counts.rays = 30;
-  counts.raysPerCamera = {30, 0, 0, 0, 0};
-  ASSERT_LT(significance.logChance(inliers(30, 0), kFocalLength), 0);
-  counts.points = 12;
-  const FailureReason withPoints = verdict(counts);
-  counts.points = 1;
-  EXPECT_NE(verdict(counts), FailureReason::None);
-  EXPECT_EQ(withPoints, FailureReason::None);
+  test::Random random(test::testSeed(), 131);
+  for (std::size_t i = 0; i < scene.bearings.size(); ++i)
+    if (scene.cameras[i] != 0) scene.image2d2d[i] = test::randomImagePoint(random);
+  for (Eigen::Vector3d& image : scene.image2d3d) image = test::randomImagePoint(random);
+  const NoncentralHybridAdapter onlyOneCamera = scene.adapter();
+  const correspondences::CorrespondenceArrays oneCamera(onlyOneCamera, correspondences::allIndices(kRays),
+                                                        correspondences::allIndices(kPoints));
+  const PoseScorer oneCameraScorer(oneCamera, 4, 6, sac::Scoring::Msac);
+  Significance ofOneCamera(oneCameraScorer, chance, sampler, 7, 1);
+  const QueryPose pose = oneCamera.normalization().apply(scene.truth);
+  const PerKind<std::vector<char>> masks = oneCameraScorer.inliers(pose);
+  EXPECT_NE(ofOneCamera.verdict(pose, oneCameraScorer.evaluate(pose), sampler.count(masks.rays, masks.points), true),
+            FailureReason::None);
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   double score = 0;               ///< score of the pose, by options.scoring; 0 without a model
 
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
-  /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d. All infinite if the inliers
-  /// do not fix the pose.
+  /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d, and from what happens to
+  /// the pose if the rays of one rig camera, or one point, are left out (jackknife), so that errors of the rig show. Errors that
+  /// all correspondences share, such as those of the principal point, do not. All infinite if the inliers do not fix the pose.
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
   double noise2d2d = 0;  ///< [px] standard deviation of the Sampson errors of what is more likely an inlier than an outlier
@@ -60,11 +61,17 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 ///
 /// So data of one kind that are all outliers cost no more than the samples wasted on them, and an absent kind costs nothing.
 ///
-/// The Sampson error uses the rig camera's own focal length where the adapter knows it (getRigFocalLength), else the query's
-/// current one, but at least twice the largest coordinate of the image points (with the focal length the error of any rays would
-/// vanish). Image points, viewing rays and points must be finite.
+/// The Sampson error uses the rig camera's own focal length where the adapter knows it (getRigFocalLength), else about the width of
+/// the query's image: twice the 95 % quantile of the larger coordinates of its points. (With the query's focal length, the error of
+/// any rays would vanish as that goes to 0, and fall as it grows.) Image points, viewing rays and points must be finite.
 ///
-/// \return success only if the inliers are too many to be chance and fix all seven parameters; see FailureReason.
+/// The inliers are too many to be chance if the expected number of wrong poses with as many is below 1e-6. That is judged by the
+/// data themselves: by inliers that are *different* (a rig point, a viewing ray or a feature of the query counts once, however
+/// often it is listed), against the shares of inliers that wrong pairs of the same data have. Rays that would decide about the pose
+/// alone, and which the other correspondences do not predict, are no inliers.
+///
+/// \return success only if the inliers are too many to be chance and fix all seven parameters, the focal length to
+///         options.maxFocalLengthDeviation; see FailureReason.
 /// \throws std::invalid_argument for wrong options (see check()) and data that are not finite
 HYBRIDGV_EXPORT HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter,
                                                 const HybridRansacOptions& options = {});

@@ -51,6 +51,10 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   double minFocalLength = 0;                                        ///< [px] solutions with a smaller one are dropped
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] solutions with a larger one are dropped
 
+  /// A success needs a standard deviation of the focal length below this share of it, also without the rays that have most
+  /// influence on it.
+  double maxFocalLengthDeviation = 0.3;
+
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
   std::vector<SolverPrior> solvers = defaultSolvers();
   Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized

@@ -1,0 +1,119 @@
+#include "robust/Evidence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+// Image points in one cell of this size [px] are taken as one feature.
+constexpr double kCell = 2;
+
+// Equal keys get equal numbers 0, 1, ..; returns how many there are.
+template <class Key>
+int number(const std::vector<Key>& keys, std::vector<int>& numbers) {
+  std::vector<int> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto keyOf = [&](int i) -> const Key& { return keys[static_cast<std::size_t>(i)]; };
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return keyOf(i) < keyOf(j); });
+  numbers.resize(keys.size());
+  int count = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k > 0 && keyOf(order[k - 1]) < keyOf(order[k])) ++count;
+    numbers[static_cast<std::size_t>(order[k])] = count;
+  }
+  return keys.empty() ? 0 : count + 1;
+}
+
+std::array<double, 2> cellOf(double u, double v) { return {std::floor(u / kCell), std::floor(v / kCell)}; }
+
+// As floats, so that a rounding error of the rig's frame does not make two items of one.
+std::array<float, 4> key(int camera, const Eigen::Vector3d& x) {
+  return {static_cast<float>(camera), static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+}
+
+// Counts different numbers; a number that was seen before, or is to be ignored, does not count.
+class DifferentNumbers {
+ public:
+  explicit DifferentNumbers(int numbers) : seen_(static_cast<std::size_t>(numbers), 0) {}
+  void ignore(int number) { seen_[static_cast<std::size_t>(number)] = 1; }
+  void add(int number) {
+    char& seen = seen_[static_cast<std::size_t>(number)];
+    count_ += seen == 0;
+    seen = 1;
+  }
+  int count() const { return count_; }
+
+ private:
+  std::vector<char> seen_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+Evidence::Evidence(const correspondences::CorrespondenceArrays& arrays) {
+  std::vector<std::array<double, 2>> cells;
+  std::vector<std::array<float, 4>> rays, points;
+  for (const correspondences::RayMatch& ray : arrays.rays()) {
+    cells.push_back(cellOf(ray.u, ray.v));
+    rays.push_back(key(ray.camera, ray.direction));
+    cameras_.push_back(ray.camera);
+  }
+  for (const correspondences::PointMatch& match : arrays.points()) {
+    cells.push_back(cellOf(match.u, match.v));
+    points.push_back(key(0, match.point));
+  }
+  std::vector<int> features;
+  features_ = number(cells, features);
+  rays_.feature.assign(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(rays.size()));
+  points_.feature.assign(features.begin() + static_cast<std::ptrdiff_t>(rays.size()), features.end());
+  rayItems_ = number(rays, rays_.item);
+  pointItems_ = number(points, points_.item);
+}
+
+Support Evidence::support(const InlierMasks& inliers) const {
+  return support(inliers, [](std::size_t) { return true; });
+}
+
+Support Evidence::supportWithoutCamera(const InlierMasks& inliers, int camera) const {
+  return support(inliers, [&](std::size_t ray) { return cameras_[ray] != camera; });
+}
+
+// `counts`: of a ray, whether it is there at all.
+template <class Counts>
+Support Evidence::support(const InlierMasks& inliers, const Counts& counts) const {
+  DifferentNumbers pointFeatures(features_), pointItems(pointItems_), allPointFeatures(features_);
+  DifferentNumbers rayFeatures(features_), rayItems(rayItems_), allRayFeatures(features_), allRayItems(rayItems_);
+  for (std::size_t i = 0; i < points_.item.size(); ++i) {
+    allPointFeatures.add(points_.feature[i]);
+    if (inliers.points[i] == 0) continue;
+    pointFeatures.add(points_.feature[i]);
+    pointItems.add(points_.item[i]);
+    rayFeatures.ignore(points_.feature[i]);
+    allRayFeatures.ignore(points_.feature[i]);
+  }
+  for (std::size_t i = 0; i < rays_.item.size(); ++i) {
+    if (!counts(i)) continue;
+    allRayFeatures.add(rays_.feature[i]);
+    allRayItems.add(rays_.item[i]);
+    if (inliers.rays[i] == 0) continue;
+    rayFeatures.add(rays_.feature[i]);
+    rayItems.add(rays_.item[i]);
+  }
+  return {std::min(pointFeatures.count(), pointItems.count()), std::min(allPointFeatures.count(), pointItems_),
+          std::min(rayFeatures.count(), rayItems.count()), std::min(allRayFeatures.count(), allRayItems.count())};
+}
+
+bool Evidence::isSamePoint(std::size_t i, std::size_t j) const {
+  return points_.item[i] == points_.item[j] || points_.feature[i] == points_.feature[j];
+}
+
+bool Evidence::isSameRay(std::size_t i, std::size_t j) const {
+  return rays_.item[i] == rays_.item[j] || rays_.feature[i] == rays_.feature[j];
+}
+
+}  // namespace robust
+}  // namespace hybridgv

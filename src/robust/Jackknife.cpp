@@ -1,0 +1,162 @@
+#include "robust/Jackknife.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "correspondences/PaddedValues.hpp"
+#include "robust/FixedSize.hpp"
+#include "robust/toPlain.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+using correspondences::padded;
+using correspondences::PaddedValues;
+
+// Without a group that has nearly all the information in some direction, one step says nothing. (Of the square root of what is left.)
+constexpr double kLeastRest = 1e-3;
+
+using Members = std::vector<std::size_t>;
+
+std::vector<Members> membersOf(const std::vector<int>& groups) {
+  std::vector<Members> result;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto group = static_cast<std::size_t>(groups[i]);
+    if (result.size() <= group) result.resize(group + 1);
+    result[group].push_back(i);
+  }
+  return result;
+}
+
+// Copies of some entries of the arrays' columns. The copies are used one after the other.
+class Columns {
+ public:
+  void clear() { used_ = 0; }
+  const double* pick(const double* column, const Members& members) {
+    if (used_ == buffers_.size()) buffers_.emplace_back();
+    std::vector<double>& buffer = buffers_[used_++];
+    buffer.assign(padded(members.size()), 0);
+    std::transform(members.begin(), members.end(), buffer.begin(), [=](std::size_t i) { return column[i]; });
+    return buffer.data();
+  }
+
+ private:
+  std::deque<std::vector<double>> buffers_;
+  std::size_t used_ = 0;
+};
+
+// The sums of one group after the other.
+class GroupSums {
+ public:
+  GroupSums(const LeastSquaresProblem& problem, const QueryPose& pose) : problem_(problem), pose_(toPlain(pose)) {}
+
+  NormalEquations ofPoints(const Members& members) {
+    columns_.clear();
+    PointArrays points = problem_.points;
+    points.size = members.size();
+    for (const double* PointArrays::*column :
+         {&PointArrays::u, &PointArrays::v, &PointArrays::x, &PointArrays::y, &PointArrays::z})
+      points.*column = columns_.pick(points.*column, members);
+    NormalEquations sums;
+    problem_.kernels->addPoints(points, pose_, problem_.pointLoss, sums);
+    return sums;
+  }
+
+  NormalEquations ofRays(const Members& members) {
+    columns_.clear();
+    RayArrays rays = problem_.rays;
+    rays.size = members.size();
+    for (const double* RayArrays::*column :
+         {&RayArrays::u, &RayArrays::v, &RayArrays::cx, &RayArrays::cy, &RayArrays::cz, &RayArrays::dx, &RayArrays::dy,
+          &RayArrays::dz, &RayArrays::ax, &RayArrays::ay, &RayArrays::az, &RayArrays::squaredPixel, &RayArrays::isUnknown})
+      rays.*column = columns_.pick(rays.*column, members);
+    PaddedValues narrowing;
+    if (rays.narrowing) {
+      std::vector<double> values;
+      for (const std::size_t i : members) values.push_back(*(rays.narrowing + i));
+      narrowing = PaddedValues(std::move(values), 1);
+    }
+    rays.narrowing = narrowing.pointer();
+    NormalEquations sums;
+    problem_.kernels->addRays(rays, pose_, problem_.rayLoss, sums);
+    return sums;
+  }
+
+ private:
+  const LeastSquaresProblem& problem_;
+  PlainPose pose_;
+  Columns columns_;
+};
+
+// The changes of the pose without each group, in coordinates in which the information is the identity.
+template <int N>
+class Changes {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+  using Matrix = Eigen::Matrix<double, N, N>;
+
+  explicit Changes(const Matrix& toIdentity) : toIdentity_(toIdentity) {}
+
+  void add(const NormalEquations& group, Intrinsics estimated) {
+    const Matrix information = estimatedPart(group, estimated).template topLeftCorner<N, N>();
+    if (!(information.trace() > 0)) return;  // no inliers
+    const Matrix rest = Matrix::Identity() - toIdentity_ * information * toIdentity_.transpose();
+    const Eigen::LLT<Matrix> factors(rest);
+    if (factors.info() != Eigen::Success || factors.matrixLLT().diagonal().minCoeff() < kLeastRest) return;
+    const Vector change = factors.solve(toIdentity_ * estimatedGradient(group, estimated).template head<N>());
+    sum_ += change * change.transpose();
+    ++count_;
+  }
+
+  // By how much the variances in the directions of the columns of `directions` are larger than the information says. The largest
+  // eigenvalue of the sum of G random matrices exceeds 1 by chance, up to (1 + sqrt(N/G))^2.
+  Vector factors(Matrix& directions) const {
+    if (count_ < 2) {
+      directions.setIdentity();
+      return Vector::Ones();
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(sum_ * ((count_ - 1.0) / count_));
+    directions = eigen.eigenvectors();
+    const double root = std::sqrt(static_cast<double>(N) / count_), byChance = root * (2 + root);
+    return (eigen.eigenvalues().array() - byChance).cwiseMax(1);
+  }
+
+ private:
+  Matrix toIdentity_, sum_ = Matrix::Zero();
+  int count_ = 0;
+};
+
+template <int N>
+bool jackknife(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
+               ParameterMatrix& covariance) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const Eigen::LLT<Matrix> cholesky{Matrix(covariance)};  // C = L L^T, so that L^T H L is the identity
+  if (cholesky.info() != Eigen::Success) return true;
+  const Matrix L = cholesky.matrixL();
+  Changes<N> changes(L.transpose());
+  GroupSums sums(problem, pose);
+  if (problem.kinds.rays)
+    for (const Members& members : membersOf(groups.rays)) changes.add(sums.ofRays(members), problem.estimated);
+  if (problem.kinds.points)
+    for (const Members& members : membersOf(groups.points)) changes.add(sums.ofPoints(members), problem.estimated);
+  Matrix directions;
+  const auto factors = changes.factors(directions);
+  covariance = L * directions * factors.asDiagonal() * directions.transpose() * L.transpose();
+  return covariance.allFinite();
+}
+
+}  // namespace
+
+bool jackknifeCovariance(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
+                         const ParameterMatrix& information, ParameterMatrix& covariance) {
+  if (!invertInformation(information, covariance)) return false;
+  return withFixedSize(problem.estimated.parameters(),
+                       [&](auto size) { return jackknife<decltype(size)::value>(problem, pose, groups, covariance); });
+}
+
+}  // namespace robust
+}  // namespace hybridgv

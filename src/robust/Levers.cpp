@@ -1,0 +1,58 @@
+#include "robust/Levers.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "robust/Leverage.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+// A ray with a larger leverage than this decides more about its own error than all others together.
+constexpr double kLever = 0.5;
+// The narrowing of a refused ray: its loss has no weight, and no cost.
+constexpr double kRefused = 1e100;
+
+}  // namespace
+
+void RayTreatment::refuse(const std::vector<std::size_t>& rays) {
+  for (const std::size_t i : rays) {
+    refused_.push_back(i);
+    narrowing_[i] = kRefused;
+  }
+  isNeeded_ = isNeeded_ || !rays.empty();
+}
+
+void RayTreatment::setNarrowing(std::vector<double> narrowing) {
+  narrowing_ = std::move(narrowing);
+  for (const std::size_t i : refused_) narrowing_[i] = kRefused;
+  isNeeded_ = true;
+}
+
+void RayTreatment::leaveOut(std::vector<double>& squaredErrors) const {
+  for (const std::size_t i : refused_)
+    if (i < squaredErrors.size()) squaredErrors[i] = std::numeric_limits<double>::infinity();
+}
+
+correspondences::PaddedValues RayTreatment::narrowing() const {
+  return isNeeded_ ? correspondences::PaddedValues(narrowing_, 1) : correspondences::PaddedValues();
+}
+
+std::vector<std::size_t> leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment) {
+  std::vector<std::size_t> result;
+  LeastSquaresProblem without = problem;
+  for (std::vector<std::size_t> levers;; levers.clear()) {
+    const correspondences::PaddedValues narrowing = treatment.narrowing();
+    without.rays.narrowing = narrowing.pointer();
+    const std::vector<double> leverages = rayLeverages(without, pose);
+    for (std::size_t i = 0; i < leverages.size(); ++i)
+      if (leverages[i] > kLever) levers.push_back(i);
+    if (levers.empty()) return result;
+    treatment.refuse(levers);
+    result.insert(result.end(), levers.begin(), levers.end());
+  }
+}
+
+}  // namespace robust
+}  // namespace hybridgv

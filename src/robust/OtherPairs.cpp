@@ -1,0 +1,166 @@
+#include "robust/OtherPairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/RandomStream.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+using correspondences::CorrespondenceArrays;
+using correspondences::padded;
+using correspondences::PointMatch;
+using correspondences::RayMatch;
+
+// So many correspondences of a kind get random partners, so many partners each: a share of one in a thousand is still seen.
+constexpr std::size_t kAskers = 256, kPairs = 4096, kMostPartners = 64;
+// With neighbours, which are searched for among so many.
+constexpr std::size_t kAskersOfNeighbours = 48, kNeighbours = 8, kCandidates = 2048;
+constexpr std::uint64_t kPartnerStream = ~std::uint64_t{0} - 2;
+
+struct ImagePoint {
+  double u, v;
+};
+
+std::vector<ImagePoint> imagePoints(const CorrespondenceArrays& arrays) {
+  std::vector<ImagePoint> result;
+  result.reserve(arrays.rays().size() + arrays.points().size());
+  for (const RayMatch& ray : arrays.rays()) result.push_back({ray.u, ray.v});
+  for (const PointMatch& point : arrays.points()) result.push_back({point.u, point.v});
+  return result;
+}
+
+// The nearest of the first candidates, nearest first, of those that count. (Whether one does is asked only if it is near.)
+class Nearest {
+ public:
+  template <class SquaredDistance, class Counts>
+  Nearest(std::size_t candidates, SquaredDistance squaredDistance, Counts counts) {
+    for (std::size_t j = 0; j < std::min(candidates, kCandidates); ++j) {
+      const double distance = squaredDistance(j);
+      if ((size_ < kNeighbours || distance < distance_[size_ - 1]) && counts(j)) insert(distance, j);
+    }
+  }
+  std::size_t size() const { return size_; }
+  std::size_t operator[](std::size_t k) const { return index_[k]; }
+
+ private:
+  void insert(double distance, std::size_t index) {
+    std::size_t k = size_ < kNeighbours ? size_++ : size_ - 1;
+    for (; k > 0 && distance < distance_[k - 1]; --k) {
+      distance_[k] = distance_[k - 1];
+      index_[k] = index_[k - 1];
+    }
+    distance_[k] = distance;
+    index_[k] = index;
+  }
+
+  std::size_t size_ = 0;
+  std::array<double, kNeighbours> distance_{};
+  std::array<std::size_t, kNeighbours> index_{};
+};
+
+}  // namespace
+
+LevelCounts countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold) {
+  LevelCounts counts{};
+  for (int& count : counts) {
+    for (std::size_t i = 0; i < size; ++i) count += squaredErrors[i] < squaredThreshold ? 1 : 0;
+    if (count == 0) break;
+    squaredThreshold /= 4;
+  }
+  return counts;
+}
+
+OtherPairs::Partners OtherPairs::noPartners(std::size_t size, std::size_t rounds) {
+  Partners partners;
+  partners.size = size;
+  partners.u.assign(rounds, std::vector<double>(padded(size), std::numeric_limits<double>::quiet_NaN()));
+  partners.v = partners.u;
+  return partners;
+}
+
+void OtherPairs::setPartner(std::size_t i, std::size_t round, double u, double v, Partners& partners) {
+  partners.u[round][i] = u;
+  partners.v[round][i] = v;
+  ++partners.pairs;
+}
+
+OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, std::uint64_t seed) {
+  OtherPairs result(arrays);
+  const std::vector<ImagePoint> all = imagePoints(arrays);
+  if (all.size() < 2) return result;
+  math::RandomStream random(seed, kPartnerStream);
+  const auto pairUp = [&](std::size_t first, std::size_t count) {
+    const std::size_t askers = std::min(count, kAskers);
+    Partners partners = noPartners(askers, std::min(kPairs / std::max<std::size_t>(askers, 1), kMostPartners));
+    for (std::size_t round = 0; round < partners.u.size(); ++round)
+      for (std::size_t i = 0; i < askers; ++i) {
+        const auto drawn = static_cast<std::size_t>(random.below(static_cast<int>(all.size()) - 1));
+        const ImagePoint& other = all[drawn + (drawn >= first + i ? 1 : 0)];  // not its own
+        setPartner(i, round, other.u, other.v, partners);
+      }
+    return partners;
+  };
+  result.rays_ = pairUp(0, arrays.rays().size());
+  result.points_ = pairUp(arrays.rays().size(), arrays.points().size());
+  return result;
+}
+
+OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence) {
+  const auto pairUp = [](const auto& matches, auto squaredDistance, auto counts) {
+    Partners partners = noPartners(std::min(matches.size(), kAskersOfNeighbours), kNeighbours);
+    for (std::size_t i = 0; i < partners.size; ++i) {
+      const Nearest nearest(
+          matches.size(), [&](std::size_t j) { return squaredDistance(matches[i], matches[j]); },
+          [&](std::size_t j) { return counts(i, j); });
+      for (std::size_t k = 0; k < nearest.size(); ++k) setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
+    }
+    return partners;
+  };
+  OtherPairs result(arrays);
+  const std::vector<RayMatch>& rays = arrays.rays();
+  result.rays_ = pairUp(
+      rays, [](const RayMatch& a, const RayMatch& b) { return (a.direction - b.direction).squaredNorm(); },
+      [&](std::size_t i, std::size_t j) { return rays[i].camera == rays[j].camera && !evidence.isSameRay(i, j); });
+  result.points_ = pairUp(
+      arrays.points(), [](const PointMatch& a, const PointMatch& b) { return (a.point - b.point).squaredNorm(); },
+      [&](std::size_t i, std::size_t j) { return !evidence.isSamePoint(i, j); });
+  return result;
+}
+
+Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const {
+  std::vector<double> errors(padded(std::max(rays_.size, points_.size)));
+  const auto count = [&](const Partners& partners, double threshold, auto setErrors) {
+    LevelShares shares{};
+    if (partners.pairs == 0) return shares;
+    for (std::size_t round = 0; round < partners.u.size(); ++round) {
+      setErrors(partners.u[round].data(), partners.v[round].data());
+      const LevelCounts counts = countLevels(errors.data(), partners.size, threshold * threshold);
+      for (std::size_t level = 0; level < counts.size(); ++level) shares[level] += counts[level];
+    }
+    for (double& share : shares) share /= static_cast<double>(partners.pairs);
+    return shares;
+  };
+  Shares result;
+  result.rays = count(rays_, maxEpipolarError, [&](const double* u, const double* v) {
+    correspondences::RayArrays rays = arrays_->rayArrays();
+    rays.size = rays_.size;
+    rays.u = u;
+    rays.v = v;
+    kernels().squaredRayErrors(rays, pose, errors.data());
+  });
+  result.points = count(points_, maxReprojectionError, [&](const double* u, const double* v) {
+    correspondences::PointArrays points = arrays_->pointArrays();
+    points.size = points_.size;
+    points.u = u;
+    points.v = v;
+    kernels().squaredPointErrors(points, pose, errors.data());
+  });
+  return result;
+}
+
+}  // namespace robust
+}  // namespace hybridgv

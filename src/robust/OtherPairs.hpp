@@ -1,0 +1,56 @@
+// How many image points of other correspondences a pose would take for a correspondence's own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "correspondences/CorrespondenceArrays.hpp"
+#include "robust/Evidence.hpp"
+#include "robust/kernels/Kernels.hpp"
+
+namespace hybridgv {
+namespace robust {
+
+// Errors are counted below the thresholds T, T/2, T/4, .. of their kind.
+constexpr int kLevels = 7;
+using LevelCounts = std::array<int, kLevels>;
+using LevelShares = std::array<double, kLevels>;
+
+using Shares = PerKind<LevelShares>;
+
+// `squaredThreshold`: T^2.
+LevelCounts countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold);
+
+// A wrong pose's inliers are accidents. How frequent such accidents are depends on the data: image points that crowd in a few places,
+// or points of the rig that look like one from afar, agree with a wrong pose far more often than evenly spread ones. So it is
+// measured: rays and points are paired with image points of *other* correspondences, which are wrong for them, and the share of these
+// pairs that have an error below a threshold is counted.
+class OtherPairs {
+ public:
+  // Random partners: image points of either kind.
+  static OtherPairs random(const correspondences::CorrespondenceArrays& arrays, std::uint64_t seed);
+  // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
+  // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
+  // pairs have, but nothing agrees inside an object.
+  static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence);
+
+  // The shares at a pose in the arrays' frame. The arrays, which are in random order, must still exist.
+  Shares shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const;
+
+ private:
+  // The first `size` correspondences of a kind get another image point in each round; NaN is none.
+  struct Partners {
+    std::size_t size = 0, pairs = 0;
+    std::vector<std::vector<double>> u, v;
+  };
+  explicit OtherPairs(const correspondences::CorrespondenceArrays& arrays) : arrays_(&arrays) {}
+  static Partners noPartners(std::size_t size, std::size_t rounds);
+  static void setPartner(std::size_t i, std::size_t round, double u, double v, Partners& partners);
+
+  const correspondences::CorrespondenceArrays* arrays_;
+  Partners rays_, points_;
+};
+
+}  // namespace robust
+}  // namespace hybridgv

@@ -1,0 +1,107 @@
+#include "robust/OtherPairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include "HybridScene.hpp"
+#include "robust/toPlain.hpp"
+
+namespace hybridgv {
+namespace test {
+namespace {
+
+using correspondences::allIndices;
+using correspondences::CorrespondenceArrays;
+using robust::OtherPairs;
+using robust::Shares;
+
+struct Data {
+  explicit Data(const HybridScene& scene)
+      : arrays(scene.adapter(), allIndices(scene.bearings.size()), allIndices(scene.points.size())),
+        truth(robust::toPlain(arrays.normalization().apply(scene.truth))) {}
+  CorrespondenceArrays arrays;
+  robust::PlainPose truth;
+};
+
+HybridScene sceneOf(int count) {
+  Random random(testSeed() + 9300);
+  SceneOptions options;
+  options.rays = options.points = count;
+  return makeHybridScene(random, options);
+}
+
+TEST(OtherPairs, CountLevelsHalvesTheThreshold) {
+  const double squaredErrors[] = {0.9, 0.2, 0.06, 0.01, 1.1, 1e-9};
+  const robust::LevelCounts counts = robust::countLevels(squaredErrors, 6, 1);
+  EXPECT_EQ(counts, (robust::LevelCounts{5, 4, 3, 2, 1, 1, 1}));  // below 1, 1/4, 1/16, 1/64, ..
+}
+
+// The share of evenly spread image points within T of a place is pi T^2 / area.
+TEST(OtherPairs, RandomPairsOfEvenlySpreadPointsAgreeAsOftenAsTheAreaSays) {
+  HybridScene scene = sceneOf(2000);
+  Random random(testSeed() + 9301);
+  for (auto* image : {&scene.image2d2d, &scene.image2d3d})
+    for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(random.uniform(-500, 500), random.uniform(-500, 500), 1);
+  const Data data(scene);
+  const double threshold = 60;
+  const Shares shares = OtherPairs::random(data.arrays, 1).shares(data.truth, threshold, threshold);
+  const double expected = Random::kPi * threshold * threshold / 1e6;
+  EXPECT_NEAR(shares.points[0], expected, 0.35 * expected);
+  EXPECT_NEAR(shares.points[1], expected / 4, 0.5 * expected / 4);
+}
+
+TEST(OtherPairs, AllAgreeIfTheImageHasOnlyOnePlace) {
+  HybridScene scene = sceneOf(50);
+  for (Eigen::Vector3d& point : scene.points) point = Eigen::Vector3d(0.1, 0.2, 0.3) + 1e-4 * (point - scene.points[0]);
+  const Eigen::Vector2d place = project(scene.truth, Eigen::Vector3d(0.1, 0.2, 0.3));
+  for (auto* image : {&scene.image2d2d, &scene.image2d3d})
+    for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(place[0], place[1], 1);
+  const Data data(scene);
+  EXPECT_EQ(OtherPairs::random(data.arrays, 1).shares(data.truth, 6, 12).points[0], 1);
+}
+
+// Neighbours see the image points of points near to them: at the true pose as far away as those are.
+TEST(OtherPairs, NeighboursAgreeWhereTheyAreNearer) {
+  HybridScene scene = sceneOf(400);
+  const Data data(scene);
+  const robust::Evidence evidence(data.arrays);
+  const Shares random = OtherPairs::random(data.arrays, 1).shares(data.truth, 100, 100);
+  const Shares neighbours = OtherPairs::ofNeighbours(data.arrays, evidence).shares(data.truth, 100, 100);
+  EXPECT_GT(neighbours.points[0], 3 * random.points[0]);
+  EXPECT_GT(neighbours.rays[0], random.rays[0]);
+}
+
+TEST(OtherPairs, ACorrespondenceIsNoNeighbourOfItsOwnCopies) {
+  HybridScene scene = sceneOf(20);
+  const HybridScene once = scene;
+  for (int copy = 0; copy < 9; ++copy) {
+    scene.points.insert(scene.points.end(), once.points.begin(), once.points.end());
+    scene.image2d3d.insert(scene.image2d3d.end(), once.image2d3d.begin(), once.image2d3d.end());
+  }
+  const Data data(scene);
+  const Shares shares = OtherPairs::ofNeighbours(data.arrays, robust::Evidence(data.arrays)).shares(data.truth, 1, 1);
+  EXPECT_EQ(shares.points[0], 0);
+}
+
+TEST(OtherPairs, FewOrNoCorrespondencesHaveNoShares) {
+  for (const int count : {0, 1}) {
+    HybridScene scene = sceneOf(count);
+    const Data data(scene);
+    const Shares random = OtherPairs::random(data.arrays, 1).shares(data.truth, 6, 12);
+    const Shares neighbours = OtherPairs::ofNeighbours(data.arrays, robust::Evidence(data.arrays)).shares(data.truth, 6, 12);
+    EXPECT_LE(random.points[0], 1);
+    EXPECT_EQ(neighbours.points[0], 0);
+    EXPECT_EQ(neighbours.rays[0], 0);
+  }
+}
+
+TEST(OtherPairs, TheSameSeedDrawsTheSamePartners) {
+  const Data data(sceneOf(300));
+  const Shares a = OtherPairs::random(data.arrays, 5).shares(data.truth, 6, 12),
+               b = OtherPairs::random(data.arrays, 5).shares(data.truth, 6, 12);
+  EXPECT_EQ(a.rays, b.rays);
+  EXPECT_EQ(a.points, b.points);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hybridgv
