@@ -11,8 +11,9 @@ namespace {
 
 // A ray with a larger leverage than this decides more about its own error than all others together.
 constexpr double kLever = 0.5;
-// The narrowing of a refused ray: its loss has no weight, and no cost.
-constexpr double kRefused = 1e100;
+// The narrowing of a refused ray: its loss has no weight and no cost, whatever its error. (A finite one would leave all weight to
+// an error of 0.)
+constexpr double kRefused = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

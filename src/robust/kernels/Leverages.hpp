@@ -16,8 +16,8 @@ static void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, cons
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles squaredError = ray.squaredError();
-    const DoubleMask valid = isValid(ray, squaredError, loss);
     const Doubles narrowing = rays.narrowing ? load<Doubles>(rays.narrowing + i) : broadcast<Doubles>(1);
+    const DoubleMask valid = isValid(ray, squaredError, loss) & (narrowing < kInfinity);
     const Doubles weight = loss.precision * slope(loss, relativeSquare(loss, valid, squaredError, narrowing));
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
     Row<Camera::kParameters> derivatives;

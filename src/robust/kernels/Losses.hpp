@@ -70,15 +70,16 @@ class CostSum {
   explicit CostSum(const KindLoss& loss) : loss_(loss) {}
 
   // Adds what the correspondences cost, and returns the weights of their squared errors. Those that are not valid have weight 0.
-  // `narrowing` may be null.
+  // `narrowing` may be null. Where it is infinite there is no cost either.
   Doubles weigh(DoubleMask inRange, DoubleMask valid, Doubles squaredError, const double* narrowing = nullptr) {
     const Doubles factor = narrowing ? load<Doubles>(narrowing) : broadcast<Doubles>(1);
-    const Doubles x = relativeSquare(loss_, valid, squaredError, factor);
+    const DoubleMask counts = factor < kInfinity;
+    const Doubles x = relativeSquare(loss_, valid & counts, squaredError, factor);
     if (loss_.loss == Loss::Mixture && !narrowing)
       logs_.add(select<Doubles>(inRange, mixtureFactor(x), broadcast<Doubles>(1)));
     else
-      rho_ += select<Doubles>(inRange, narrowing ? rho(x) / factor : rho(x), Doubles{});
-    return select<Doubles>(inRange & valid, loss_.precision * slope(loss_, x), Doubles{});
+      rho_ += select<Doubles>(inRange & counts, narrowing ? rho(x) / factor : rho(x), Doubles{});
+    return select<Doubles>(inRange & valid & counts, loss_.precision * slope(loss_, x), Doubles{});
   }
   double total() { return loss_.precision * loss_.scale * loss_.scale * sum(rho_ + logs_.value()); }
 
