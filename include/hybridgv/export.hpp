@@ -5,8 +5,8 @@
 /// \def HYBRIDGV_EXPORT
 /// Before a class or function: it is part of the library's interface.
 ///
-/// \def HYBRIDGV_STATIC
-/// Defined where the library is linked statically; the CMake target and the pkg-config file do so.
+/// Where the library is linked statically, `HYBRIDGV_STATIC` is defined: programs on Windows need it. The CMake target and the
+/// pkg-config file define it.
 
 #if defined(_WIN32) && defined(HYBRIDGV_STATIC)
 #define HYBRIDGV_EXPORT
