@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "math/RandomStream.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -12,27 +16,42 @@ namespace {
 // Image points in one cell of this size [px] are taken as one feature.
 constexpr double kCell = 2;
 
+using Key = std::uint64_t;
+
+// A key that is equal for equal numbers, and as good as never for others.
+template <class Number, std::size_t N>
+Key keyOf(const std::array<Number, N>& numbers) {
+  Key key = 0;
+  for (const Number number : numbers) {
+    const double value = static_cast<double>(number) + 0.0;  // -0 is 0
+    Key bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    key = math::RandomStream(key, bits).next();
+  }
+  return key;
+}
+
 // Equal keys get equal numbers 0, 1, ..; returns how many there are.
-template <class Key>
 int number(const std::vector<Key>& keys, std::vector<int>& numbers) {
-  std::vector<int> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto keyOf = [&](int i) -> const Key& { return keys[static_cast<std::size_t>(i)]; };
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return keyOf(i) < keyOf(j); });
+  std::vector<std::pair<Key, std::size_t>> sorted;
+  sorted.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) sorted.emplace_back(keys[i], i);
+  std::sort(sorted.begin(), sorted.end());
   numbers.resize(keys.size());
   int count = 0;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k > 0 && keyOf(order[k - 1]) < keyOf(order[k])) ++count;
-    numbers[static_cast<std::size_t>(order[k])] = count;
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    if (k > 0 && sorted[k - 1].first != sorted[k].first) ++count;
+    numbers[sorted[k].second] = count;
   }
   return keys.empty() ? 0 : count + 1;
 }
 
-std::array<double, 2> cellOf(double u, double v) { return {std::floor(u / kCell), std::floor(v / kCell)}; }
+Key cellOf(double u, double v) { return keyOf(std::array<double, 2>{std::floor(u / kCell), std::floor(v / kCell)}); }
 
 // As floats, so that a rounding error of the rig's frame does not make two items of one.
-std::array<float, 4> key(int camera, const Eigen::Vector3d& x) {
-  return {static_cast<float>(camera), static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+Key itemOf(int camera, const Eigen::Vector3d& x) {
+  return keyOf(std::array<float, 4>{static_cast<float>(camera), static_cast<float>(x[0]), static_cast<float>(x[1]),
+                                    static_cast<float>(x[2])});
 }
 
 // Counts different numbers; a number that was seen before, or is to be ignored, does not count.
@@ -55,16 +74,15 @@ class DifferentNumbers {
 }  // namespace
 
 Evidence::Evidence(const correspondences::CorrespondenceArrays& arrays) {
-  std::vector<std::array<double, 2>> cells;
-  std::vector<std::array<float, 4>> rays, points;
+  std::vector<Key> cells, rays, points;
   for (const correspondences::RayMatch& ray : arrays.rays()) {
     cells.push_back(cellOf(ray.u, ray.v));
-    rays.push_back(key(ray.camera, ray.direction));
+    rays.push_back(itemOf(ray.camera, ray.direction));
     cameras_.push_back(ray.camera);
   }
   for (const correspondences::PointMatch& match : arrays.points()) {
     cells.push_back(cellOf(match.u, match.v));
-    points.push_back(key(0, match.point));
+    points.push_back(itemOf(0, match.point));
   }
   std::vector<int> features;
   features_ = number(cells, features);

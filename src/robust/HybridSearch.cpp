@@ -12,7 +12,7 @@ namespace robust {
 namespace {
 
 // Batches grow, because what was learnt from one steers the next: to 128 samples, then with a quarter of all before.
-constexpr int kFirstBatch = 16, kLargestBatch = 128, kLargestPart = 4;
+constexpr int kFirstBatch = 16, kLeastBatch = 8, kLargestBatch = 128, kLargestPart = 4;
 
 int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / kLargestPart); }
 
@@ -52,8 +52,18 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
 void HybridSearch::run() {
   if (options_.initialPose) tryInitialPose();
   if (choice_.strategies().empty()) return;
-  for (int batch = kFirstBatch; !isDone(); batch = std::min(2 * batch, largestBatch(iterations_)))
+  for (int batch = kFirstBatch; !isDone(); batch = nextBatch(batch))
     tryBatch(std::min(batch, options_.maxIterations - iterations_));
+}
+
+// The last one ends where the search does.
+int HybridSearch::nextBatch(int batch) const {
+  const int next = std::min(2 * batch, largestBatch(iterations_));
+  if (!bestIsSignificant_) return next;
+  const double needed = std::ceil(choice_.samplesUntil(1 - options_.successProbability)) + 1;
+  const double wanted =
+      std::max({needed, static_cast<double>(options_.minIterations - iterations_), static_cast<double>(kLeastBatch)});
+  return static_cast<int>(std::min(static_cast<double>(next), wanted));
 }
 
 void HybridSearch::tryInitialPose() {
@@ -136,6 +146,8 @@ void HybridSearch::consider(const Model& candidate) {
     ++localOptimizations_;
     replaceIfLikelier(optimizer_.refine(candidate.pose), optimized);
   }
+  // A model that is believed is replaced by a likelier one only.
+  if (bestIsSignificant_ && options_.localOptimization && !(optimized.logLikelihood > best_.logLikelihood)) return;
   const bool isSignificant = significance_.isSignificant(optimized.pose);
   if (isBetter(optimized, isSignificant)) setBest(optimized, isSignificant);
 }

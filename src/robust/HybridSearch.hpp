@@ -71,6 +71,8 @@ class HybridSearch {
 
   void tryInitialPose();
   void tryBatch(int count);
+  // The size of the next batch after one of this size.
+  int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
   void considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const;
   void consider(const Model& candidate);

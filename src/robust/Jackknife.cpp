@@ -92,41 +92,52 @@ class GroupSums {
   Columns columns_;
 };
 
-// The changes of the pose without each group, in coordinates in which the information is the identity.
+// The changes of the pose without each group.
 template <int N>
 class Changes {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
 
-  explicit Changes(const Matrix& toIdentity) : toIdentity_(toIdentity) {}
+  // `covariance`: the inverse of the information of all.
+  explicit Changes(const Matrix& covariance) : covariance_(covariance) {}
 
   void add(const NormalEquations& group, Intrinsics estimated) {
     const Matrix information = estimatedPart(group, estimated).template topLeftCorner<N, N>();
-    if (!(information.trace() > 0)) return;  // no inliers
-    const Matrix rest = Matrix::Identity() - toIdentity_ * information * toIdentity_.transpose();
-    const Eigen::LLT<Matrix> factors(rest);
-    if (factors.info() != Eigen::Success || factors.matrixLLT().diagonal().minCoeff() < kLeastRest) return;
-    const Vector change = factors.solve(toIdentity_ * estimatedGradient(group, estimated).template head<N>());
+    const double part = covariance_.cwiseProduct(information).sum();  // of the information, at most N
+    if (!(part > 0)) return;                                          // no inliers
+    const Vector gradient = estimatedGradient(group, estimated).template head<N>();
+    Vector change;
+    if (part < kSmallPart)
+      change = changeBySeries(information, gradient);
+    else if (!changeBySolving(information, gradient, change))
+      return;
     sum_ += change * change.transpose();
     ++count_;
   }
-
-  // By how much the variances in the directions of the columns of `directions` are larger than the information says. The largest
-  // eigenvalue of the sum of G random matrices exceeds 1 by chance, up to (1 + sqrt(N/G))^2.
-  Vector factors(Matrix& directions) const {
-    if (count_ < 2) {
-      directions.setIdentity();
-      return Vector::Ones();
-    }
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(sum_ * ((count_ - 1.0) / count_));
-    directions = eigen.eigenvectors();
-    const double root = std::sqrt(static_cast<double>(N) / count_), byChance = root * (2 + root);
-    return (eigen.eigenvalues().array() - byChance).cwiseMax(1);
-  }
+  int count() const { return count_; }
+  Matrix covariance() const { return sum_ * ((count_ - 1.0) / count_); }
 
  private:
-  Matrix toIdentity_, sum_ = Matrix::Zero();
+  // (H - H_k)^-1 g = C (g + H_k C (g + H_k C (g + ..
+  Vector changeBySeries(const Matrix& information, const Vector& gradient) const {
+    Vector change = covariance_ * gradient;
+    for (int term = 0; term < kTerms; ++term) change = covariance_ * (gradient + information * change);
+    return change;
+  }
+  bool changeBySolving(const Matrix& information, const Vector& gradient, Vector& change) const {
+    const Eigen::LLT<Matrix> cholesky(covariance_);
+    const Matrix L = cholesky.matrixL();
+    const Eigen::LLT<Matrix> rest(Matrix::Identity() - L.transpose() * information * L);
+    if (rest.info() != Eigen::Success || rest.matrixLLT().diagonal().minCoeff() < kLeastRest) return false;
+    change = L * rest.solve(L.transpose() * gradient);
+    return true;
+  }
+
+  static constexpr double kSmallPart = 0.2;
+  static constexpr int kTerms = 3;
+
+  Matrix covariance_, sum_ = Matrix::Zero();
   int count_ = 0;
 };
 
@@ -134,18 +145,25 @@ template <int N>
 bool jackknife(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
                ParameterMatrix& covariance) {
   using Matrix = Eigen::Matrix<double, N, N>;
-  const Eigen::LLT<Matrix> cholesky{Matrix(covariance)};  // C = L L^T, so that L^T H L is the identity
+  const Eigen::LLT<Matrix> cholesky{Matrix(covariance)};  // C = L L^T
   if (cholesky.info() != Eigen::Success) return true;
-  const Matrix L = cholesky.matrixL();
-  Changes<N> changes(L.transpose());
+  Changes<N> changes{Matrix(covariance)};
   GroupSums sums(problem, pose);
   if (problem.kinds.rays)
     for (const Members& members : membersOf(groups.rays)) changes.add(sums.ofRays(members), problem.estimated);
   if (problem.kinds.points)
     for (const Members& members : membersOf(groups.points)) changes.add(sums.ofPoints(members), problem.estimated);
-  Matrix directions;
-  const auto factors = changes.factors(directions);
-  covariance = L * directions * factors.asDiagonal() * directions.transpose() * L.transpose();
+  if (changes.count() < 2) return true;
+
+  // In coordinates in which C is the identity, the largest eigenvalue of the sum of G random matrices exceeds 1 by chance, up to
+  // (1 + sqrt(N/G))^2.
+  const Matrix L = cholesky.matrixL();
+  const Matrix half = L.template triangularView<Eigen::Lower>().solve(changes.covariance());
+  const Matrix white = L.template triangularView<Eigen::Lower>().solve(Matrix(half.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(white);
+  const double root = std::sqrt(static_cast<double>(N) / changes.count()), byChance = root * (2 + root);
+  const Eigen::Matrix<double, N, 1> factors = (eigen.eigenvalues().array() - byChance).cwiseMax(1);
+  covariance = L * eigen.eigenvectors() * factors.asDiagonal() * eigen.eigenvectors().transpose() * L.transpose();
   return covariance.allFinite();
 }
 

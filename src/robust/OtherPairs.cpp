@@ -16,9 +16,9 @@ using correspondences::PointMatch;
 using correspondences::RayMatch;
 
 // So many correspondences of a kind get random partners, so many partners each: a share of one in a thousand is still seen.
-constexpr std::size_t kAskers = 256, kPairs = 4096, kMostPartners = 64;
+constexpr std::size_t kAskers = 256, kPairs = 2048, kMostPartners = 64;
 // With neighbours, which are searched for among so many.
-constexpr std::size_t kAskersOfNeighbours = 48, kNeighbours = 8, kCandidates = 2048;
+constexpr std::size_t kAskersOfNeighbours = 32, kNeighbours = 8, kCandidates = 2048;
 constexpr std::uint64_t kPartnerStream = ~std::uint64_t{0} - 2;
 
 struct ImagePoint {

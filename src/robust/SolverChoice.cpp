@@ -8,6 +8,8 @@
 namespace hybridgv {
 namespace robust {
 
+constexpr double kSurely = 1 - 1e-12;
+
 // A sample gives about a third of the largest number of solutions, each of which is scored until it is hopeless.
 static constexpr double kScoringCost = 0.2 / 3;
 
@@ -61,6 +63,16 @@ double SolverChoice::missProbability() const {
   double result = 1;
   for (std::size_t s = 0; s < allInlier_.size(); ++s) result *= std::pow(1 - allInlier_[s], drawn_[s]);
   return result;
+}
+
+double SolverChoice::samplesUntil(double targetMissProbability) const {
+  double rate = 0, before = 0;  // of the logarithm, per sample
+  for (std::size_t s = 0; s < allInlier_.size(); ++s) {
+    const double share = (cumulativeWeight_[s] - before) / cumulativeWeight_.back();
+    before = cumulativeWeight_[s];
+    rate -= share * std::log1p(-std::min(allInlier_[s], kSurely));
+  }
+  return rate > 0 ? std::log(std::max(missProbability(), targetMissProbability) / targetMissProbability) / rate : 0;
 }
 
 }  // namespace robust

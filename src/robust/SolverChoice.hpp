@@ -41,6 +41,8 @@ class SolverChoice {
 
   // Probability that no sample so far had inliers only: prod (1 - P_s)^k_s; 1 until the probabilities are known.
   double missProbability() const;
+  // How many more samples bring that probability below a target; 0 until the probabilities are known.
+  double samplesUntil(double targetMissProbability) const;
 
  private:
   // A strategy is not drawn if another finds an all-inlier sample this many times faster.

@@ -44,7 +44,7 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   double successProbability = 0.9999;
   /// Samples drawn at least (if maxIterations allows): noisy data have local optima that look good enough to stop at, and a few
   /// more samples are cheap.
-  int minIterations = 48;
+  int minIterations = 24;
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
 
