@@ -6,9 +6,11 @@
 // It stops if the solver breaks a promise: std::invalid_argument for data that are not finite, otherwise at most so many poses,
 // each of which is one and satisfies the equations up to rounding.
 #include <optional>
+#include <vector>
 
 #include "EquationCheck.hpp"
 #include "RawAdapter.hpp"
+#include "correspondences/numberCameras.hpp"
 #include "hybrid_pose/solveSample.hpp"
 
 namespace {
@@ -28,6 +30,12 @@ void choose(const char* name) {
     std::fprintf(stderr, "%s\n", error.what());
     std::exit(2);
   }
+}
+
+// The solver that the public function takes: a rig camera is known by its centre, not by the number in the sample.
+const solvers::MinimalSolver* solverOf(std::vector<solvers::RayMatch> rays) {
+  correspondences::numberCamerasOfSample(rays.data(), static_cast<int>(rays.size()));
+  return chosen->forSample(rays.data());
 }
 
 }  // namespace
@@ -59,10 +67,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   if (!fuzz::isFinite(sample)) fuzz::reportFault("data that are not finite are refused");
-  const solvers::MinimalSolver& solver = *chosen->forSample(sample.rays.data());
-  if (poses.size() > static_cast<std::size_t>(solver.maxSolutions))
+  const solvers::MinimalSolver* const solver = solverOf(sample.rays);
+  if (!solver) fuzz::reportFault("a sample that no solver takes is refused");
+  if (poses.size() > static_cast<std::size_t>(solver->maxSolutions))
     fuzz::reportFault("there are not more solutions than the problem has");
-  const test::EquationCheck equations(sample.rays, sample.points, static_cast<std::size_t>(solver.exactCoordinates));
+  const test::EquationCheck equations(sample.rays, sample.points, static_cast<std::size_t>(solver->exactCoordinates));
   for (const FocalPose& pose : poses) {
     const std::string violation = equations.violation(pose);
     if (!violation.empty()) fuzz::reportFault(violation.c_str());
