@@ -125,5 +125,19 @@ TEST_F(RealModel, Crane) {
   EXPECT_GE(within(1, 0.5), 7);
 }
 
+// Many rays on a flat facade, map images of unknown focal length: the query's must not run away.
+TEST(RealProblem, TheFocalLengthDoesNotRunAwayOnAFlatFacade) {
+  const std::string path = std::string(HYBRIDGV_REALDATA_DIR) + "/photos/problems/reichstag_runaway_focal.txt";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
+  const sfm::LocalizationProblem problem = sfm::readProblem(path);
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    sac::HybridRansacOptions options;
+    options.seed = seed;
+    const sac::HybridRansacResult result = sac::hybridRansac(problem.adapter, options);
+    EXPECT_TRUE(result.success) << "seed " << seed;
+    EXPECT_NEAR(result.pose.focalLength, 1109, 33) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace hybridgv
