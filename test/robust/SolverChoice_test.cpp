@@ -67,6 +67,18 @@ TEST(SolverChoice, MissProbabilityIsTheProductOverAllDraws) {
   EXPECT_NEAR(choice.missProbability(), std::pow(0.5, 3) * std::pow(0.9, 2), 1e-12);
 }
 
+TEST(SolverChoice, SaysHowManySamplesBringTheMissProbabilityToATarget) {
+  SolverChoice choice({mock(1, 2)});
+  EXPECT_EQ(choice.samplesUntil(1e-4), 0) << "nothing is known yet";
+  choice.setAllInlierProbabilities({0.1});
+  choice.addDraws(0, 10);
+  const double more = choice.samplesUntil(1e-4);
+  EXPECT_NEAR(more, std::log(1e-4) / std::log(0.9) - 10, 1e-6);
+  choice.addDraws(0, static_cast<int>(std::ceil(more)));
+  EXPECT_LT(choice.missProbability(), 1e-4);
+  EXPECT_EQ(choice.samplesUntil(1e-4), 0);
+}
+
 // Drawing until the miss probability is below 1e-2 misses in about one of a hundred runs, whichever solvers were drawn.
 TEST(SolverChoice, StoppingAtTheMissProbabilityMissesAsOftenAsItSays) {
   const std::vector<double> P = {0.03, 0.05, 0.2};

@@ -1,0 +1,114 @@
+#include "robust/Jackknife.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "HybridScene.hpp"
+
+namespace hybridgv {
+namespace {
+
+using namespace robust;
+
+constexpr double kNoise = 1;
+
+// A scene with independent errors, and the rays of each rig camera moved by a common error of its image [px].
+test::HybridScene makeScene(test::Random& random, double commonError) {
+  test::SceneOptions options;
+  options.rays = 120;
+  options.points = 40;
+  options.cameras = 12;
+  options.imageNoise = kNoise;
+  test::HybridScene scene = test::makeHybridScene(random, options);
+  std::vector<Eigen::Vector3d> errors;
+  for (int k = 0; k < options.cameras; ++k)
+    errors.push_back(commonError / test::kRigFocalLength * random.normal() * random.direction());
+  for (std::size_t i = 0; i < scene.bearings.size(); ++i)
+    scene.bearings[i] = (scene.bearings[i] + errors[static_cast<std::size_t>(scene.cameras[i])]).normalized();
+  return scene;
+}
+
+struct Estimate {
+  ParameterMatrix byInformation, covariance;
+  Eigen::Vector3d positionError;
+};
+
+Estimate estimate(const test::HybridScene& scene) {
+  const correspondences::CorrespondenceArrays arrays(scene.adapter(), correspondences::allIndices(scene.bearings.size()),
+                                                     correspondences::allIndices(scene.points.size()));
+  const KindLoss noise{Loss::Quadratic, kNoise, 1 / (kNoise * kNoise)};
+  const LeastSquaresProblem problem = makeProblem(arrays, noise, noise);
+  const QueryPose truth = arrays.normalization().apply(scene.truth);
+  const QueryPose minimum = minimize(problem, truth).pose;
+  JackknifeGroups groups;
+  for (const int camera : scene.cameras) groups.rays.push_back(camera);
+  groups.points = correspondences::allIndices(scene.points.size());
+  Estimate result;
+  const ParameterMatrix information = robust::information(problem, minimum);
+  EXPECT_TRUE(invertInformation(information, result.byInformation));
+  EXPECT_TRUE(jackknifeCovariance(problem, minimum, groups, information, result.covariance));
+  result.positionError = minimum.position - truth.position;
+  return result;
+}
+
+double smallestEigenvalue(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues()[0];
+}
+
+// Mean of the squared error of the position over its variance, by both covariances; 1 if they are right.
+struct Calibration {
+  double byInformation = 0, byJackknife = 0;
+};
+Calibration positionCalibration(double commonError, std::uint64_t stream) {
+  constexpr int kScenes = 120;
+  test::Random random(test::testSeed(), stream);
+  Calibration result;
+  for (int i = 0; i < kScenes; ++i) {
+    const Estimate at = estimate(makeScene(random, commonError));
+    const auto squared = [&](const ParameterMatrix& covariance) {
+      const Eigen::Matrix3d ofPosition = covariance.block<3, 3>(3, 3);
+      return at.positionError.dot(ofPosition.inverse() * at.positionError) / 3;
+    };
+    result.byInformation += squared(at.byInformation) / kScenes;
+    result.byJackknife += squared(at.covariance) / kScenes;
+  }
+  return result;
+}
+
+TEST(Jackknife, IsNeverSmallerThanTheInverseOfTheInformation) {
+  test::Random random(test::testSeed(), 140);
+  for (const double commonError : {0., 3.})
+    for (int i = 0; i < 20; ++i) {
+      const Estimate at = estimate(makeScene(random, commonError));
+      EXPECT_GT(smallestEigenvalue(at.covariance - at.byInformation), -1e-6 * at.byInformation.norm());
+    }
+}
+
+TEST(Jackknife, LeavesIndependentErrorsAsTheyAre) {
+  const Calibration calibration = positionCalibration(0, 141);
+  EXPECT_NEAR(calibration.byInformation, 1, 0.3);
+  EXPECT_GT(calibration.byJackknife, 0.7 * calibration.byInformation);
+}
+
+TEST(Jackknife, ShowsErrorsThatTheRaysOfACameraShare) {
+  const Calibration calibration = positionCalibration(6, 142);
+  EXPECT_GT(calibration.byInformation, 4) << "else the scenes show nothing";
+  EXPECT_LT(calibration.byJackknife, 0.5 * calibration.byInformation);
+}
+
+TEST(Jackknife, HasNoResultIfTheInformationHasNoInverse) {
+  test::Random random(test::testSeed(), 143);
+  test::SceneOptions options;
+  options.rays = 3;
+  options.points = 0;
+  const test::HybridScene scene = test::makeHybridScene(random, options);
+  const correspondences::CorrespondenceArrays arrays(scene.adapter(), correspondences::allIndices(3), {});
+  const LeastSquaresProblem problem = makeProblem(arrays, {}, {});
+  const QueryPose truth = arrays.normalization().apply(scene.truth);
+  ParameterMatrix covariance;
+  EXPECT_FALSE(jackknifeCovariance(problem, truth, {{0, 1, 2}, {}}, information(problem, truth), covariance));
+}
+
+}  // namespace
+}  // namespace hybridgv
