@@ -26,6 +26,14 @@ void* operator new(std::size_t size) {
   }
   return static_cast<char*>(block) + kHeader;
 }
+// std::stable_sort allocates with this one. A sanitizer's would not come to the one above.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* memory) noexcept {
   if (memory == nullptr) return;
   void* block = static_cast<char*>(memory) - kHeader;
@@ -33,6 +41,7 @@ void operator delete(void* memory) noexcept {
   std::free(block);
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { operator delete(memory); }
 
 namespace hybridgv {
 namespace {
