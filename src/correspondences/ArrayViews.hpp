@@ -32,11 +32,10 @@ struct PointArrays {
 
 // 2D-2D correspondences: image point (u, v), centre c of the rig camera, direction d and image normal a (EpipolarRay). The square
 // of the map image's pixel is squaredPixel (1/g^2) where g is known; otherwise that is 0 and isUnknown is 1, not 0: then g is the
-// query's focal length, but at least leastFocalLength. The loss of a ray is narrower than KindLoss says by the square root of its
-// `narrowing`, with the same curvature at 0; null: by 1; a ray of which it is infinite does not count.
+// query's focal length. The loss of a ray is narrower than KindLoss says by the square root of its `narrowing`, with the same
+// curvature at 0; null: by 1; a ray of which it is infinite does not count.
 struct RayArrays {
   std::size_t size = 0;
-  double leastFocalLength = 0;
   const double *u, *v, *cx, *cy, *cz, *dx, *dy, *dz, *ax, *ay, *az, *squaredPixel, *isUnknown;
   PaddedPointer narrowing = {};
 };

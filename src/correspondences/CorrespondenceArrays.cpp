@@ -75,7 +75,6 @@ CorrespondenceArrays CorrespondenceArrays::subset(const std::vector<int>& rayInd
                                                   const std::vector<int>& pointIndices) const {
   CorrespondenceArrays result;
   result.normalization_ = normalization_;
-  result.leastFocalLength_ = leastFocalLength_;
   result.rays_ = chosen(rays_, rayIndices);
   result.points_ = chosen(points_, pointIndices);
   result.mapImagePoints_ = chosen(mapImagePoints_, rayIndices);
@@ -152,8 +151,8 @@ void CorrespondenceArrays::fixUnknownFocalLengths() {
 RayArrays CorrespondenceArrays::rayArrays() const {
   const std::size_t rows = padded(rays_.size());
   const auto column = [&](std::size_t k) { return rayColumns_.data() + k * rows; };
-  return {rays_.size(), leastFocalLength_, column(0), column(1), column(2),  column(3),  column(4), column(5),
-          column(6),    column(7),         column(8), column(9), column(10), column(11), column(12)};
+  return {rays_.size(), column(0), column(1), column(2), column(3),  column(4),  column(5),
+          column(6),    column(7), column(8), column(9), column(10), column(11), column(12)};
 }
 
 PointArrays CorrespondenceArrays::pointArrays() const {

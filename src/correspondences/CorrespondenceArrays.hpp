@@ -53,7 +53,6 @@ class CorrespondenceArrays {
   void fillPointColumns();
 
   Normalization normalization_;
-  double leastFocalLength_ = 0;
   std::vector<RayMatch> rays_;
   std::vector<PointMatch> points_;
   std::vector<MapImagePoint> mapImagePoints_;

@@ -45,28 +45,22 @@ double atMostHalf(double share) { return share < kMaxShare ? share : kMaxShare; 
 
 }  // namespace
 
-ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError)
-    : leastFocalLength_(arrays.rayArrays().leastFocalLength) {
+ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError) {
   RobustBox query, map;
   for (const correspondences::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
   for (const correspondences::PointMatch& match : arrays.points()) query.add(match.u, match.v);
   const double band = 2 * std::sqrt(2.) * maxEpipolarError;
-  rayShareOfQuery_ = share(band * query.diagonal(), query.area());
+  rayShare_ = share(band * query.diagonal(), query.area());
   pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, query.area());
 
   for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) map.add(point.x, point.y);
   const double perPixel = band * map.diagonal() / (map.area() * static_cast<double>(arrays.rays().size()));
   for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) {
-    if (point.focalLength > 0)
-      knownMapShare_ += perPixel / point.focalLength;
-    else
-      unknownMapShare_ += perPixel;
+    rayShare_ += share(perPixel, point.focalLength);
   }
 }
 
-double ChanceModel::rayShare(double focalLength, double scale) const {
-  return atMostHalf(scale * (rayShareOfQuery_ + knownMapShare_ + unknownMapShare_ / std::max(focalLength, leastFocalLength_)));
-}
+double ChanceModel::rayShare(double scale) const { return atMostHalf(scale * rayShare_); }
 
 double ChanceModel::pointShare(double scale) const { return atMostHalf(scale * scale * pointShare_); }
 
@@ -77,16 +71,16 @@ double logTail(int n, int k, double p) {
   return -n * (q * std::log(q / p) + rest);
 }
 
-bool ChanceModel::raysAreMoreThanChance(int inliers, int all, double focalLength) const {
-  return logTail(all, inliers, rayShare(focalLength)) < kLogMoreThanChance;
+bool ChanceModel::raysAreMoreThanChance(int inliers, int all) const {
+  return logTail(all, inliers, rayShare()) < kLogMoreThanChance;
 }
 
 bool ChanceModel::pointsAreMoreThanChance(int inliers, int all) const {
   return logTail(all, inliers, pointShare()) < kLogMoreThanChance;
 }
 
-double ChanceModel::logProbability(const Support& support, double focalLength, int parameters) const {
-  return logProbability(support, rayShare(focalLength), pointShare(), parameters);
+double ChanceModel::logProbability(const Support& support, int parameters) const {
+  return logProbability(support, rayShare(), pointShare(), parameters);
 }
 
 double ChanceModel::logProbability(const Support& support, double rayShare, double pointShare, int parameters) {

@@ -16,25 +16,22 @@ class ChanceModel {
   // at most as long as the diagonal, and one of the images has at least half of the squared Sampson error.
   ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError);
 
-  // For a pose with this focal length, which is the pixel of map images with unknown focal length.
   // `scale`: of the thresholds.
-  double rayShare(double focalLength, double scale = 1) const;
+  double rayShare(double scale = 1) const;
   double pointShare(double scale = 1) const;
 
   // Whether a pose has more inliers of a kind than a wrong one would have.
-  bool raysAreMoreThanChance(int inliers, int all, double focalLength) const;
+  bool raysAreMoreThanChance(int inliers, int all) const;
   bool pointsAreMoreThanChance(int inliers, int all) const;
 
   // Upper bound of the log10 of the probability that a wrong pose has at least this support, although it has been fitted:
   // `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
-  double logProbability(const Support& support, double focalLength, int parameters) const;
+  double logProbability(const Support& support, int parameters) const;
   // The same for shares of the kinds that are given.
   static double logProbability(const Support& support, double rayShare, double pointShare, int parameters);
 
  private:
-  double rayShareOfQuery_, pointShare_;
-  // The map images' share is knownMapShare_ + unknownMapShare_ / g, g the focal length of those where it is unknown.
-  double knownMapShare_ = 0, unknownMapShare_ = 0, leastFocalLength_;
+  double rayShare_, pointShare_;
 };
 
 // Upper bound of the natural log of the probability that of n events with probability p each, at least k happen:

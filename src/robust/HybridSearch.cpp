@@ -135,7 +135,7 @@ void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int nu
   candidate.model.pose = pose;
   candidate.model.evaluation = scorer_.evaluate(pose, expectation_);
   if (!candidate.model.evaluation.complete) return;
-  candidate.logChance = significance_.logChance(candidate.model.evaluation, pose.focalLength);
+  candidate.logChance = significance_.logChance(candidate.model.evaluation);
   if (!best || candidate.isLessLikelyChance(*best)) best = candidate;
 }
 
@@ -195,7 +195,7 @@ void HybridSearch::learnFrom(const Model& model) {
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
   expectation_.goodShare = {share(inliers.rays, data_.sampler.numberRays()), share(inliers.points, data_.sampler.numberPoints())};
-  expectation_.chanceShare = {chance_.rayShare(model.pose.focalLength), chance_.pointShare()};
+  expectation_.chanceShare = {chance_.rayShare(), chance_.pointShare()};
 }
 
 InlierCounts HybridSearch::inlierCounts(const QueryPose& pose) const {

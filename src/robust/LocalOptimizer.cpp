@@ -130,7 +130,7 @@ QueryPose LocalOptimizer::settle(const QueryPose& start, const Kinds& kinds) con
 QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
+    const Noise at = noise(squaredErrors(pose, kinds));
     pose = minimized(at.rays.loss(), at.points.loss(), pose, kinds, steps);
   }
   return pose;
@@ -142,7 +142,7 @@ QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kin
   for (int round = 0; round < rounds; ++round) {
     SquaredErrors errors = squaredErrors(pose, kinds);
     treatment.leaveOut(errors.rays);
-    const Noise at = noise(errors, pose.focalLength);
+    const Noise at = noise(errors);
     const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
     pose = refuseLevers(robust, at, pose, steps, treatment);
     const PaddedValues before = treatment.narrowing();
@@ -193,7 +193,7 @@ double LocalOptimizer::deviationWithoutLevers(const LeastSquaresProblem& inliers
 
 bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
   const Kinds kinds = moreThanChance(pose);
-  const Noise at = noise(squaredErrors(pose, kinds), pose.focalLength);
+  const Noise at = noise(squaredErrors(pose, kinds));
   ParameterMatrix covariance;
   return invertInformation(information(likelierInliers(at, kinds), pose), covariance) &&
          varianceOfLogFocalLength(covariance, estimated_) < kSureDeviation * kSureDeviation;
@@ -256,7 +256,7 @@ LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindL
 Kinds LocalOptimizer::moreThanChance(const QueryPose& pose) const {
   const Evaluation evaluation = scorer_.evaluate(pose);
   const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
-  const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), pose.focalLength),
+  const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays())),
                     chance_.pointsAreMoreThanChance(evaluation.points, size(scorer_.arrays().points()))};
   return kinds.rays || kinds.points ? kinds : kBothKinds;
 }
@@ -268,37 +268,36 @@ SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& 
   return result;
 }
 
-Noise LocalOptimizer::noise(const SquaredErrors& errors, double focalLength) const {
+Noise LocalOptimizer::noise(const SquaredErrors& errors) const {
   const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
   std::vector<double> rays = below(errors.rays, maxRay), points = below(errors.points, maxPoint);
   const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
   const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
   return mixtures({deviation(measuredRays, measuredPoints), deviation(measuredPoints, measuredRays)},
-                  {rays.size(), points.size()}, focalLength);
+                  {rays.size(), points.size()});
 }
 
-Noise LocalOptimizer::mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers, double focalLength) const {
+Noise LocalOptimizer::mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers) const {
   if (inliers.rays > 0 && inliers.points > 0) allowForHiddenErrors(deviations.rays, deviations.points);
   const CorrespondenceArrays& arrays = scorer_.arrays();
-  return {rayMixture(deviations.rays,
-                     {inliers.rays, arrays.rays().size(), scorer_.maxEpipolarError(), chance_.rayShare(focalLength)}),
+  return {rayMixture(deviations.rays, {inliers.rays, arrays.rays().size(), scorer_.maxEpipolarError(), chance_.rayShare()}),
           pointMixture(deviations.points,
                        {inliers.points, arrays.points().size(), scorer_.maxReprojectionError(), chance_.pointShare()})};
 }
 
 // The deviations follow from all errors that are more likely an inlier's, not from the median error; which these are depends on the
 // deviations.
-Noise LocalOptimizer::finalNoise(const SquaredErrors& errors, double focalLength) const {
+Noise LocalOptimizer::finalNoise(const SquaredErrors& errors) const {
   constexpr int kRounds = 3;
   const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
   const PerKind<std::size_t> inliers{below(errors.rays, maxRay).size(), below(errors.points, maxPoint).size()};
-  Noise result = noise(errors, focalLength);
+  Noise result = noise(errors);
   for (int round = 0; round < kRounds; ++round) {
     const SquaredErrors likelier{below(errors.rays, result.rays.boundary), below(errors.points, result.points.boundary)};
     PerKind<double> deviations = fittedDeviations(likelier, estimated_.parameters());
     deviations.rays = std::max(deviations.rays, kLeastDeviation * maxRay);
     deviations.points = std::max(deviations.points, kLeastDeviation * maxPoint);
-    result = mixtures(deviations, inliers, focalLength);
+    result = mixtures(deviations, inliers);
     result.rays.deviation = deviations.rays;
     result.points.deviation = deviations.points;
   }
@@ -312,7 +311,7 @@ LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Ki
 
 double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
   const SquaredErrors errors = squaredErrors(pose, kBothKinds);
-  const Noise at = noise(errors, pose.focalLength);
+  const Noise at = noise(errors);
   return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points);
 }
 
@@ -325,7 +324,7 @@ FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
   treatment.leaveOut(errors.rays);
   result.refusedRays = treatment.refused();
-  result.noise = finalNoise(errors, result.pose.focalLength);
+  result.noise = finalNoise(errors);
   const PaddedValues narrowing = treatment.narrowing();
   const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, kinds), narrowing);
   result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, information(inliers, result.pose), result.covariance);

@@ -52,10 +52,10 @@ class LocalOptimizer {
  private:
   // A kind that is not used counts as absent.
   SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds) const;
-  Noise noise(const SquaredErrors& errors, double focalLength) const;
-  Noise finalNoise(const SquaredErrors& errors, double focalLength) const;
+  Noise noise(const SquaredErrors& errors) const;
+  Noise finalNoise(const SquaredErrors& errors) const;
   // For these standard deviations of the errors [px] and numbers of inliers.
-  Noise mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers, double focalLength) const;
+  Noise mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers) const;
   LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
 
   struct Steps {

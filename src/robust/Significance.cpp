@@ -77,9 +77,9 @@ Significance::Significance(const PoseScorer& scorer, const ChanceModel& chance, 
 
 void Significance::setSamples(int samples) { logSamples_ = std::log10(samples + 1.); }
 
-double Significance::logChance(const Evaluation& evaluation, double focalLength) const {
+double Significance::logChance(const Evaluation& evaluation) const {
   const Support support{evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
-  return chance_.logProbability(support, focalLength, parameters_);
+  return chance_.logProbability(support, parameters_);
 }
 
 bool Significance::isPromising(double logChance) const { return logAlarms(logChance) < 0; }
@@ -92,7 +92,7 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   const auto sharesOf = [&](const OtherPairs& pairs) {
     return pairs.shares(plain, scorer_.maxEpipolarError(), scorer_.maxReprojectionError());
   };
-  Shares shares = uniformShares(pose.focalLength);
+  Shares shares = uniformShares();
   if (!isLessLikelyThan(logFalseAlarms, errors, shares)) return false;
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), seed_);
   shares = largest(shares, sharesOf(*randomPairs_));
@@ -127,10 +127,10 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& 
   });
 }
 
-Shares Significance::uniformShares(double focalLength) const {
+Shares Significance::uniformShares() const {
   Shares result;
   for (int level = 0; level < kLevels; ++level) {
-    result.rays[static_cast<std::size_t>(level)] = chance_.rayShare(focalLength, thresholdAt(1, level));
+    result.rays[static_cast<std::size_t>(level)] = chance_.rayShare(thresholdAt(1, level));
     result.points[static_cast<std::size_t>(level)] = chance_.pointShare(thresholdAt(1, level));
   }
   return result;
@@ -148,7 +148,7 @@ bool Significance::hasFixedScale(const QueryPose& pose, const InlierCounts& inli
   const auto largest = std::max_element(perCamera.begin(), perCamera.end());
   if (largest == perCamera.end() || *largest < parameters_ - 1) return true;
   const Support rest = evidence_.supportWithoutCamera(scorer_.inliers(pose), static_cast<int>(largest - perCamera.begin()));
-  return logAlarms(chance_.logProbability(rest, pose.focalLength, 1)) < kLogFalseAlarms;
+  return logAlarms(chance_.logProbability(rest, 1)) < kLogFalseAlarms;
 }
 
 sac::FailureReason Significance::verdict(const QueryPose& pose, const Evaluation& evaluation, const InlierCounts& inliers,

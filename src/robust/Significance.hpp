@@ -29,7 +29,7 @@ class Significance {
   void setSamples(int samples);
 
   // log10 of the probability that a wrong pose looks as good as a minimal solution with these inliers and this focal length.
-  double logChance(const Evaluation& evaluation, double focalLength) const;
+  double logChance(const Evaluation& evaluation) const;
   // Whether less than one wrong pose is expected to look as good: the solution deserves a closer look.
   bool isPromising(double logChance) const;
   // Whether chance is as good as excluded.
@@ -43,7 +43,7 @@ class Significance {
   bool isLessLikelyThan(double logFalseAlarms, const QueryPose& pose);
   // For the shares of inliers that wrong poses have.
   bool isLessLikelyThan(double logFalseAlarms, const PerKind<std::vector<double>>& squaredErrors, const Shares& shares) const;
-  Shares uniformShares(double focalLength) const;
+  Shares uniformShares() const;
   InlierMasks inliersAt(const PerKind<std::vector<double>>& squaredErrors, const PerKind<int>& levels) const;
   bool hasFixedScale(const QueryPose& pose, const InlierCounts& inliers) const;
 

@@ -10,8 +10,6 @@ namespace {
 using namespace robust;
 using sac::FailureReason;
 
-constexpr double kFocalLength = 1000;
-
 // 150 rays of five cameras, 100 points, most of them right.
 class SignificanceTest : public testing::Test {
  protected:
@@ -55,11 +53,11 @@ class SignificanceTest : public testing::Test {
 TEST_F(SignificanceTest, GrowsWithTheInliersOfEitherKind) {
   double before = 1;
   for (const int points : {0, 20, 40, 80}) {
-    const double now = significance.logChance(inliers(50, points), kFocalLength);
+    const double now = significance.logChance(inliers(50, points));
     EXPECT_LT(now, before);
     before = now;
   }
-  EXPECT_LT(significance.logChance(inliers(100, 40), kFocalLength), significance.logChance(inliers(50, 40), kFocalLength));
+  EXPECT_LT(significance.logChance(inliers(100, 40)), significance.logChance(inliers(50, 40)));
 }
 
 TEST_F(SignificanceTest, OfTheSameInliersIsLessTheMoreSamplesWereDrawn) {

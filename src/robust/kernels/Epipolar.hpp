@@ -37,10 +37,7 @@ struct Epipolar {
 };
 
 // 1/g^2 of a map image with unknown focal length.
-static inline double squaredPixelOfUnknown(const RayArrays& rays, const PlainPose& pose) {
-  const double g = pose.focalLength < rays.leastFocalLength ? rays.leastFocalLength : pose.focalLength;
-  return 1 / (g * g);
-}
+static inline double squaredPixelOfUnknown(const PlainPose& pose) { return 1 / (pose.focalLength * pose.focalLength); }
 
 // The derivatives by N parameters.
 template <int N>
@@ -53,7 +50,7 @@ using Row = Doubles[N];
 //   dG/2 = (r3.l) (l2, -l1, 0) . rotation + R^T (w x (t x m)) h . rotation
 //        + ((l1 r1 + l2 r2) x D + h w x m) . dposition + (h f r3 . (t x m) - hq m.n) dlogf
 // where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
-HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose, bool pixelVaries,
+HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose,
                                    Row<correspondences::kFocalPoseParameters>& derivatives) {
   const Doubles l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
   const Vec3<Doubles> m = ray.n - ray.alongNormal * ray.imageNormal;
@@ -61,8 +58,7 @@ HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const 
   const Vec3<Doubles> constraintByRotation = cross(ray.image, Vec3<Doubles>{ray.l1, ray.l2, l3});
   const Vec3<Doubles> mapByRotation = h * pose.toQuery(cross(ray.w, tm));
   const Vec3<Doubles> varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
-  const Doubles pixelByFocal = pixelVaries ? ray.squaredPixelOfQuery * ray.varianceInMap : Doubles{};
-  const Doubles varianceByFocal = h * pose.f * dot(pose.r3, tm) - pixelByFocal;
+  const Doubles varianceByFocal = h * pose.f * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
   const Doubles ratio = ray.constraint / variance;
   derivatives[0] = constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x);
   derivatives[1] = constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1);
@@ -72,8 +68,6 @@ HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const 
   derivatives[5] = ray.s.z - ratio * varianceByPosition.z;
   derivatives[6] = pose.f * l3 - ratio * varianceByFocal;
 }
-
-static inline bool pixelVaries(const RayArrays& rays, const PlainPose& pose) { return pose.focalLength >= rays.leastFocalLength; }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust

@@ -12,7 +12,7 @@ template <class Camera>
 static void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, const double* covariance,
                          double* leverages) {
   const Pose pose(plainPose);
-  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles squaredError = ray.squaredError();
@@ -21,7 +21,7 @@ static void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, cons
     const Doubles weight = loss.precision * slope(loss, relativeSquare(loss, valid, squaredError, narrowing));
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
     Row<Camera::kParameters> derivatives;
-    differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
+    differentiate(ray, variance, pose, derivatives);
     Doubles quadraticForm{};
     for (int row = 0; row < Camera::kParameters; ++row)
       for (int column = 0; column < Camera::kParameters; ++column)

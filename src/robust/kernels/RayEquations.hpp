@@ -35,7 +35,7 @@ template <class Camera>
 static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (rays.size == 0) return;
   const Pose pose(plainPose);
-  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   CostSum cost(loss);
   NormalEquationsSum<Camera::kParameters> sums;
   forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) {
@@ -46,7 +46,7 @@ static void addRays(const RayArrays& rays, const PlainPose& plainPose, const Kin
     if (!any(weight > 0)) return;
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
     Row<Camera::kParameters> derivatives;
-    differentiate(ray, variance, pose, pixelVaries(rays, plainPose), derivatives);
+    differentiate(ray, variance, pose, derivatives);
     sums.add(derivatives, ray.constraint, weight / variance);
   });
   total.cost += cost.total();

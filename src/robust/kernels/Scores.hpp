@@ -22,7 +22,7 @@ static void squaredPointErrors(const PointArrays& points, const PlainPose& plain
 template <class Camera>
 static void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
   const Pose pose(plainPose);
-  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles error = ray.squaredError();
@@ -63,7 +63,7 @@ template <class Camera>
 static Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
                        std::size_t end) {
   const Pose pose(plainPose);
-  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(rays, plainPose));
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   ScoreSum result(squaredThreshold);
   forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
