@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hybridgv/adapters/NoncentralHybridAdapter.hpp"
+#include "hybridgv/adapters/sfm/QueryImage.hpp"
 #include "hybridgv/adapters/sfm/ReadReport.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 #include "hybridgv/export.hpp"
@@ -17,7 +18,7 @@
 namespace hybridgv {
 namespace sfm {
 
-/// How makeLocalizationProblem turns tracks into correspondences.
+/// How makeLocalizationProblem turns matches with a map into correspondences.
 struct LocalizationProblemOptions {
   /// A point becomes a 2D-3D correspondence only if the viewing rays of two map images meet in it at this angle or a larger one;
   /// below, its depth is uncertain.
@@ -25,6 +26,9 @@ struct LocalizationProblemOptions {
   /// ... and only if it projects to within this distance of what every map image has observed [px of the undistorted map image].
   /// The default is several times the noise of features, so that it rejects mismatches only.
   double maxMapReprojectionErrorPx = 4;
+  /// A keypoint that has a 2D-3D correspondence gets 2D-2D correspondences too. They add little beside the point, and double the
+  /// weight of a mismatch.
+  bool raysBesidePoints = false;
 };
 
 /// Hybrid correspondences of one query image.
@@ -35,12 +39,18 @@ struct LocalizationProblem {
   std::optional<FocalPose> reference;
   /// For every camera index of the adapter: the image of the model, SparseModel::images (empty if read from a file).
   std::vector<std::size_t> rigImages;
-  /// For every 2D-2D correspondence: the point of the model, SparseModel::points (empty if read from a file).
+  /// For every 2D-2D correspondence: the point of the model, SparseModel::points, or Observation::kNoPoint (empty if read from a
+  /// file).
   std::vector<std::size_t> points2d2d;
   std::vector<std::size_t> points2d3d;  ///< for every 2D-3D correspondence: its point of the model (empty if read from a file)
   /// For every 2D-2D correspondence: true if injectOutliers has given it a wrong image point.
   std::vector<bool> isOutlier2d2d;
   std::vector<bool> isOutlier2d3d;  ///< for every 2D-3D correspondence: true if injectOutliers has made it wrong
+  /// For every 2D-2D correspondence: the keypoint of the query, QueryImage::keypoints or Image::observations (empty if read from a
+  /// file). Those of one keypoint are not independent.
+  std::vector<std::size_t> keypoints2d2d = {};
+  std::vector<std::size_t> keypoints2d3d = {};  ///< for every 2D-3D correspondence: its keypoint (empty if read from a file)
+  LeftOut leftOut = {};                         ///< what was not used, including what the query's reader has left out
 };
 
 /// Makes `model.images[imageIndex]` a query of unknown pose and focal length, and the other images the rig (leave-one-out).
@@ -66,6 +76,25 @@ struct LocalizationProblem {
 /// \throws std::invalid_argument for an index out of range, an image that is not registered or has no image plane, options
 ///         that are negative or not finite, and invalid indices or numbers that are not finite in those parts of the model that are needed
 HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_t imageIndex,
+                                                            const LocalizationProblemOptions& options = {});
+
+/// Makes correspondences of an image that is not in the map and of its matches.
+///
+/// * A match whose observation has a point gives a 2D-3D correspondence of the keypoint and that point, once for all map images that
+///   agree on it; how many they are is its weight, times the mean score. The point must have parallax and fit what its images see
+///   (see `options`); its position is the map's. A keypoint may have several points.
+/// * If the point is not that certain, or if the observation has no point, the match gives a 2D-2D correspondence: the keypoint and
+///   the observation's viewing ray. (COLMAP's image_registrator leaves these out.)
+/// * A keypoint with a 2D-3D correspondence has no 2D-2D ones, unless options.raysBesidePoints. Several rays of one keypoint stay
+///   several correspondences.
+///
+/// Image points are relative to the principal point, of square pixels. A known camera's are undistorted; otherwise the distortion is
+/// still in them (hybridRansac finds it with QueryCamera::Radial). Otherwise as for an image of the map: see above.
+///
+/// 	hrows std::invalid_argument for a match with an image that does not exist, scores that are not one for each pair, a camera whose
+///         model cannot be estimated (SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV can) unless it is known, and what is
+///         wrong in those parts of the map that are needed
+HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& map, const QueryImage& query,
                                                             const LocalizationProblemOptions& options = {});
 
 /// The problem with wrong matches: of the correspondences of each kind a share (rounded to the nearest count) is chosen at

@@ -1,0 +1,64 @@
+#include "QueryCamera.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "CameraModels.hpp"
+#include "CheckArguments.hpp"
+
+namespace hybridgv {
+namespace sfm {
+namespace {
+
+bool canBeEstimated(CameraModel model) {
+  switch (model) {
+    case CameraModel::SimplePinhole:
+    case CameraModel::Pinhole:
+    case CameraModel::SimpleRadial:
+    case CameraModel::Radial:
+    case CameraModel::OpenCV:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+QueryCamera::QueryCamera(const Camera& camera, CameraKnowledge knowledge)
+    : camera_(camera), isKnown_(knowledge == CameraKnowledge::Known) {
+  if (isKnown_) {
+    const std::string fault = findCameraFault(camera);
+    if (!fault.empty()) throwInvalid("query.camera", fault);
+    if (!hasImagePlane(camera.model))
+      throwInvalid("query.camera", std::string("has the camera model ") + toString(camera.model) + " without an image plane");
+    return;
+  }
+  if (!canBeEstimated(camera.model))
+    throwInvalid("query.camera", std::string("the camera model ") + toString(camera.model) +
+                                     " cannot be estimated (SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL and OPENCV can)");
+  if (camera.parameters.empty() && (camera.width == 0 || camera.height == 0))
+    throwInvalid("query.camera", "has neither a size nor a principal point");
+  if (camera.parameters.empty()) {
+    cx_ = static_cast<double>(camera.width) / 2;
+    cy_ = static_cast<double>(camera.height) / 2;
+    return;
+  }
+  const std::string fault = findCameraFault(camera);
+  if (!fault.empty()) throwInvalid("query.camera", fault);
+  const std::size_t first = focalLengthCount(camera.model);
+  cx_ = camera.parameters[first];
+  cy_ = camera.parameters[first + 1];
+  aspect_ = camera.parameters[0] / camera.parameters[first - 1];
+}
+
+std::optional<Eigen::Vector3d> QueryCamera::imagePoint(double x, double y) const {
+  constexpr double kSmallestCosine = 0.5;
+  if (!isKnown_) return Eigen::Vector3d(x - cx_, aspect_ * (y - cy_), 1);
+  if (mapsAPlane(camera_.model)) return undistort(camera_, x, y);
+  const std::optional<Eigen::Vector3d> ray = bearingVector(camera_, x, y);
+  return ray && ray->z() >= kSmallestCosine ? undistort(camera_, x, y) : std::nullopt;
+}
+
+}  // namespace sfm
+}  // namespace hybridgv
