@@ -43,6 +43,7 @@ struct LeftOut {
   std::size_t pairsWithFewMatches = 0;  ///< pairs of images with fewer matches than wanted
   std::size_t watermarkPairs = 0;       ///< pairs of images that share a watermark only
   std::size_t unverifiedPairs = 0;      ///< pairs of images without verified geometry
+  std::size_t pairsDamaged = 0;         ///< pairs of images whose matches cannot be read
   std::size_t indicesOutOfRange = 0;    ///< matches that name a keypoint or an observation that does not exist
   std::size_t keypointsNotUsable = 0;   ///< matched keypoints that are not finite, or outside of what the camera can see
 };

@@ -1,0 +1,20 @@
+# Parts that need a package of their own. hybridgv_optional(PART found packages): the part's option HYBRIDGV_PART is AUTO (where its
+# packages are found), ON (they must be) or OFF; HYBRIDGV_WITH_PART says what has come of it.
+macro(hybridgv_optional part found packages)
+  if(HYBRIDGV_${part} STREQUAL "AUTO")
+    set(HYBRIDGV_WITH_${part} ${${found}})
+  else()
+    set(HYBRIDGV_WITH_${part} ${HYBRIDGV_${part}})
+    if(HYBRIDGV_${part} AND NOT ${found})
+      message(FATAL_ERROR "hybridgv: HYBRIDGV_${part} is ON and needs ${packages}")
+    endif()
+  endif()
+  if(NOT HYBRIDGV_WITH_${part})
+    message(STATUS "hybridgv: without ${part} (needs ${packages}; HYBRIDGV_${part} is ${HYBRIDGV_${part}})")
+  endif()
+endmacro()
+
+if(NOT HYBRIDGV_COLMAP STREQUAL "OFF")
+  find_package(SQLite3 QUIET)
+endif()
+hybridgv_optional(COLMAP SQLite3_FOUND "SQLite (libsqlite3-dev)")
