@@ -42,6 +42,15 @@ NormalEquations normalEquations(const LeastSquaresProblem& problem, const QueryP
   return sums;
 }
 
+// The distortion is the last parameter.
+template <int N>
+void addPrior(const DistortionPrior& prior, double distortion, Linearization<N>& sums) {
+  const double weight = prior.weight(distortion);
+  sums.cost += prior.cost(distortion);
+  sums.gradient[N - 1] += weight * distortion;
+  sums.hessian(N - 1, N - 1) += weight;
+}
+
 template <int N>
 Linearization<N> linearize(const LeastSquaresProblem& problem, const QueryPose& pose) {
   const NormalEquations sums = normalEquations(problem, pose);
@@ -56,6 +65,7 @@ Linearization<N> linearize(const LeastSquaresProblem& problem, const QueryPose& 
       result.hessian(column, row) = entry;
     }
   }
+  if (N > kPoseParameters && problem.estimated.radial) addPrior<N>(problem.distortionPrior, pose.distortion, result);
   return result;
 }
 
@@ -84,7 +94,8 @@ QueryPose moved(const QueryPose& pose, const Vector<N>& step, Intrinsics estimat
   result.position += step.template segment<3>(3);
   if constexpr (N > kPoseParameters) {
     if (estimated.focalLength) result.focalLength = movedFocalLength(pose.focalLength, step[kPoseParameters], options);
-    if (estimated.radial) result.distortion += step[N - 1];
+    if (estimated.radial)
+      result.distortion = std::clamp(pose.distortion + step[N - 1], options.minDistortion, options.maxDistortion);
   }
   return result;
 }
@@ -134,9 +145,18 @@ LeastSquaresResult minimizeFixed(const LeastSquaresProblem& problem, const Query
 
 }  // namespace
 
+double DistortionPrior::cost(double distortion) const {
+  return scale > 0 ? factor * 2 * std::log1p(distortion * distortion / (scale * scale)) : 0;
+}
+
+double DistortionPrior::weight(double distortion) const {
+  return scale > 0 ? factor * 2 / (scale * scale + distortion * distortion) : 0;
+}
+
 LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss,
                                 Intrinsics estimated) {
-  return {&kernels(), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds, estimated};
+  const CameraModel model = estimated.radial ? CameraModel::Radial : CameraModel::Pinhole;
+  return {&kernels(model), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds, estimated, {}};
 }
 
 LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options) {

@@ -14,7 +14,19 @@ namespace robust {
 
 using correspondences::CorrespondenceArrays;
 
-// The problem: minimize over the correspondences of the kinds that take part the sum of precision * scale^2 rho((error / scale)^2).
+// What is known of the distortion c before: it is Cauchy distributed about 0. Costs twice the negative log of the density, times
+// `factor`. A scale of 0 stands for no knowledge.
+struct DistortionPrior {
+  double cost(double distortion) const;
+  // Half of the derivative of the cost is weight times c; information that is never negative.
+  double weight(double distortion) const;
+
+  double scale = 0;   // [1/px^2]
+  double factor = 1;  // for costs that are smaller than -2 log of the likelihood
+};
+
+// The problem: minimize over the correspondences of the kinds that take part the sum of precision * scale^2 rho((error / scale)^2),
+// and if the distortion is estimated, the cost of its prior.
 struct LeastSquaresProblem {
   const Kernels* kernels;
   PointArrays points;
@@ -22,6 +34,7 @@ struct LeastSquaresProblem {
   KindLoss pointLoss, rayLoss;
   Kinds kinds = kBothKinds;  // that take part
   Intrinsics estimated;      // the others keep the value that they have in the pose
+  DistortionPrior distortionPrior = {};
 };
 
 struct LeastSquaresOptions {
@@ -29,6 +42,8 @@ struct LeastSquaresOptions {
   double minRelativeDecrease = 1e-12;  // of the cost, in a step: then it has converged
   double minFocalLength = 0;
   double maxFocalLength = std::numeric_limits<double>::infinity();
+  double minDistortion = -std::numeric_limits<double>::infinity();
+  double maxDistortion = std::numeric_limits<double>::infinity();
 };
 
 struct LeastSquaresResult {
@@ -39,7 +54,7 @@ struct LeastSquaresResult {
   int iterations = 0;
 };
 
-// With both kinds.
+// With both kinds. The distortion of poses is taken into account if it is estimated.
 LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss,
                                 Intrinsics estimated = {});
 

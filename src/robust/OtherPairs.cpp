@@ -150,14 +150,14 @@ Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double
     rays.size = rays_.size;
     rays.u = u;
     rays.v = v;
-    kernels().squaredRayErrors(rays, pose, errors.data());
+    kernelsFor(pose).squaredRayErrors(rays, pose, errors.data());
   });
   result.points = count(points_, maxReprojectionError, [&](const double* u, const double* v) {
     correspondences::PointArrays points = arrays_->pointArrays();
     points.size = points_.size;
     points.u = u;
     points.v = v;
-    kernels().squaredPointErrors(points, pose, errors.data());
+    kernelsFor(pose).squaredPointErrors(points, pose, errors.data());
   });
   return result;
 }

@@ -45,7 +45,6 @@ class SequentialTest {
 PoseScorer::PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError,
                        sac::Scoring scoring)
     : arrays_(arrays),
-      kernels_(kernels()),
       points_(arrays.pointArrays()),
       rays_(arrays.rayArrays()),
       maxEpipolarError_(maxEpipolarError),
@@ -62,10 +61,10 @@ void PoseScorer::makeChunks() {
   }
 }
 
-int PoseScorer::add(const Chunk& chunk, const PlainPose& pose, Evaluation& evaluation) const {
+int PoseScorer::add(const Chunk& chunk, const Kernels& kernels, const PlainPose& pose, Evaluation& evaluation) const {
   const double threshold = chunk.isRays ? maxEpipolarError_ : maxReprojectionError_;
-  const Score part = chunk.isRays ? kernels_.scoreRays(rays_, pose, threshold * threshold, chunk.begin, chunk.end)
-                                  : kernels_.scorePoints(points_, pose, threshold * threshold, chunk.begin, chunk.end);
+  const Score part = chunk.isRays ? kernels.scoreRays(rays_, pose, threshold * threshold, chunk.begin, chunk.end)
+                                  : kernels.scorePoints(points_, pose, threshold * threshold, chunk.begin, chunk.end);
   evaluation.score += scoring_ == sac::Scoring::Msac ? part.msac : part.inliers;
   (chunk.isRays ? evaluation.rays : evaluation.points) += part.inliers;
   return part.inliers;
@@ -73,20 +72,22 @@ int PoseScorer::add(const Chunk& chunk, const PlainPose& pose, Evaluation& evalu
 
 Evaluation PoseScorer::evaluate(const QueryPose& pose) const {
   const PlainPose plain = toPlain(pose);
+  const Kernels& kernels = kernelsFor(plain);
   Evaluation result;
-  for (const Chunk& chunk : chunks_) add(chunk, plain, result);
+  for (const Chunk& chunk : chunks_) add(chunk, kernels, plain, result);
   result.complete = true;
   return result;
 }
 
 Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expectation) const {
   const PlainPose plain = toPlain(pose);
+  const Kernels& kernels = kernelsFor(plain);
   SequentialTest test(expectation);
   Evaluation result;
   std::size_t left = points_.size + rays_.size;
   for (const Chunk& chunk : chunks_) {
     const std::size_t count = chunk.end - chunk.begin;
-    test.add(chunk.isRays, add(chunk, plain, result), count);
+    test.add(chunk.isRays, add(chunk, kernels, plain, result), count);
     left -= count;
     if (result.score + static_cast<double>(left) <= expectation.score || test.isHopeless()) return result;
   }
@@ -96,14 +97,16 @@ Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expect
 
 std::vector<double> PoseScorer::squaredRayErrors(const QueryPose& pose) const {
   std::vector<double> errors(rays_.size + correspondences::kPadding);
-  kernels_.squaredRayErrors(rays_, toPlain(pose), errors.data());
+  const PlainPose plain = toPlain(pose);
+  kernelsFor(plain).squaredRayErrors(rays_, plain, errors.data());
   errors.resize(rays_.size);
   return errors;
 }
 
 std::vector<double> PoseScorer::squaredPointErrors(const QueryPose& pose) const {
   std::vector<double> errors(points_.size + correspondences::kPadding);
-  kernels_.squaredPointErrors(points_, toPlain(pose), errors.data());
+  const PlainPose plain = toPlain(pose);
+  kernelsFor(plain).squaredPointErrors(points_, plain, errors.data());
   errors.resize(points_.size);
   return errors;
 }

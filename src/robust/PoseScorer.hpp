@@ -56,10 +56,9 @@ class PoseScorer {
   };
   void makeChunks();
   // Adds the chunk's correspondences to the evaluation; returns its inliers.
-  int add(const Chunk& chunk, const PlainPose& pose, Evaluation& evaluation) const;
+  int add(const Chunk& chunk, const Kernels& kernels, const PlainPose& pose, Evaluation& evaluation) const;
 
   const CorrespondenceArrays& arrays_;
-  const Kernels& kernels_;
   PointArrays points_;
   RayArrays rays_;
   double maxEpipolarError_, maxReprojectionError_;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "MinimalProblem.hpp"
+#include "hybridgv/distortion.hpp"
 
 namespace hybridgv {
 namespace {
@@ -35,10 +36,14 @@ Pair randomPair(test::Random& random) {
 
 Vector3d homogeneous(const Vector2d& pixel) { return {pixel[0], pixel[1], 1}; }
 
-double sampson(const Pair& pair, const Vector2d& inQuery, const Vector2d& inMap) {
+double sampson(const Pair& pair, double distortion, const Vector2d& inQuery, const Vector2d& inMap) {
   const Vector3d bearing(inMap[0], inMap[1], pair.map.focalLength);
-  return sampsonError(pair.query, homogeneous(inQuery), bearing, pair.map.position, pair.map.rotation, pair.map.focalLength);
+  return sampsonError(pair.query, distortion, homogeneous(inQuery), bearing, pair.map.position, pair.map.rotation,
+                      pair.map.focalLength);
 }
+
+// Image points of these scenes are at most 700 px from the principal point.
+constexpr double kDistortions[] = {-6e-7, -1e-7, 0, 3e-7};
 
 TEST(ReprojectionError, IsTheDistanceToTheProjection) {
   test::Random random(test::testSeed(), 1);
@@ -49,6 +54,27 @@ TEST(ReprojectionError, IsTheDistanceToTheProjection) {
     EXPECT_NEAR(reprojectionError(pair.query, observed, pair.point), offset.norm(), 1e-9);
     EXPECT_NEAR(reprojectionError(pair.query, -3 * observed, pair.point), offset.norm(), 1e-9);
   }
+}
+
+TEST(ReprojectionError, IsMeasuredInTheDistortedImage) {
+  test::Random random(test::testSeed(), 8);
+  for (const double distortion : kDistortions)
+    for (int i = 0; i < 30; ++i) {
+      const Pair pair = randomPair(random);
+      const Vector3d seen = *distort(distortion, homogeneous(test::project(pair.query, pair.point)));
+      const Vector2d offset(random.uniform(-20, 20), random.uniform(-20, 20));
+      const Vector3d observed = seen + Vector3d(offset[0], offset[1], 0);
+      EXPECT_NEAR(reprojectionError(pair.query, distortion, observed, pair.point), offset.norm(), 1e-9);
+    }
+}
+
+TEST(ReprojectionError, IsInfiniteWhereTheLensSeesNothing) {
+  test::Random random(test::testSeed(), 9);
+  const Pair pair = randomPair(random);
+  const Vector3d exact = homogeneous(test::project(pair.query, pair.point));
+  const double beyond = 0.26 / exact.head<2>().squaredNorm();
+  EXPECT_EQ(reprojectionError(pair.query, beyond, exact, pair.point), kInfinity);
+  EXPECT_EQ(reprojectionError(pair.query, NAN, exact, pair.point), kInfinity);
 }
 
 TEST(ReprojectionError, IsInfiniteForPointsNotInFrontAndForNonFiniteInput) {
@@ -67,12 +93,15 @@ TEST(SampsonError, IsToFirstOrderTheDistanceToTheEpipolarConstraint) {
   test::Random random(test::testSeed(), 3);
   for (int i = 0; i < 200; ++i) {
     const Pair pair = randomPair(random);
-    const Vector2d q = test::project(pair.query, pair.point), m = test::project(pair.map, pair.point);
-    EXPECT_LT(sampson(pair, q, m), 1e-7);
+    const double distortion = kDistortions[i % 4];
+    const Vector2d q = distort(distortion, homogeneous(test::project(pair.query, pair.point)))->head<2>();
+    const Vector2d m = test::project(pair.map, pair.point);
+    EXPECT_LT(sampson(pair, distortion, q, m), 1e-7);
 
     // The constraint as a function of the four pixel coordinates, and its gradient by differences.
     const auto constraint = [&](const Vector2d& x, const Vector2d& y) {
-      const Vector3d w = pair.query.rotation * Vector3d(x[0], x[1], pair.query.focalLength);
+      const Vector3d pinhole = undistort(distortion, homogeneous(x));
+      const Vector3d w = pair.query.rotation * Vector3d(pinhole[0], pinhole[1], pair.query.focalLength);
       const Vector3d d = pair.map.rotation * Vector3d(y[0], y[1], pair.map.focalLength);
       return w.dot((pair.map.position - pair.query.position).cross(d));
     };
@@ -86,8 +115,8 @@ TEST(SampsonError, IsToFirstOrderTheDistanceToTheEpipolarConstraint) {
     const double move = random.uniform(0.001, 0.01);
     const Vector2d dq = move * gradient.head<2>().normalized() * gradient.head<2>().norm() / gradient.norm();
     const Vector2d dm = move * gradient.tail<2>() / gradient.norm();
-    EXPECT_NEAR(sampson(pair, q + dq, m + dm), move, 1e-3 * move);
-    EXPECT_NEAR(sampson(pair, q - dq, m - dm), move, 1e-3 * move);
+    EXPECT_NEAR(sampson(pair, distortion, q + dq, m + dm), move, 1e-3 * move);
+    EXPECT_NEAR(sampson(pair, distortion, q - dq, m - dm), move, 1e-3 * move);
   }
 }
 
@@ -126,6 +155,9 @@ TEST(SampsonError, IsInfiniteUnlessTheRaysMeetInFrontOfBothCameras) {
   behind.position = 2 * pair.point - pair.query.position;
   EXPECT_EQ(sampsonError(behind, q, b, pair.map.position, pair.map.rotation, 0), kInfinity) << "behind the query";
   EXPECT_EQ(sampsonError(pair.query, q, b, pair.query.position, pair.map.rotation, 0), kInfinity) << "equal centres";
+  const double unseen = -1.01 / q.head<2>().squaredNorm();
+  EXPECT_EQ(sampsonError(pair.query, unseen, q, b, pair.map.position, pair.map.rotation, 0), kInfinity) << "seen nowhere";
+  EXPECT_EQ(sampsonError(pair.query, NAN, q, b, pair.map.position, pair.map.rotation, 0), kInfinity);
   EXPECT_EQ(sampsonError(pair.query, {NAN, 0, 1}, b, pair.map.position, pair.map.rotation, 0), kInfinity);
   EXPECT_EQ(sampsonError(pair.query, q, Vector3d::Zero(), pair.map.position, pair.map.rotation, 0), kInfinity);
 }

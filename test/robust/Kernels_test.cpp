@@ -10,6 +10,7 @@
 #include "HybridScene.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "correspondences/PaddedValues.hpp"
+#include "hybridgv/distortion.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 
 namespace hybridgv {
@@ -24,6 +25,21 @@ std::vector<SimdLevel> levels() {
   std::vector<SimdLevel> result;
   for (const SimdLevel level : {SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512})
     if (level <= math::supportedSimdLevel()) result.push_back(level);
+  return result;
+}
+
+// A camera model with distortions [1/px^2] for it: image points are up to about 700 px from the principal point.
+struct Model {
+  CameraModel model;
+  std::vector<double> distortions;
+};
+const std::vector<Model>& models() {
+  static const std::vector<Model> result = {{CameraModel::Pinhole, {0}}, {CameraModel::Radial, {-7e-7, -1e-7, 0, 3e-7}}};
+  return result;
+}
+QueryPose withDistortion(const FocalPose& pose, double distortion) {
+  QueryPose result = pose;
+  result.distortion = distortion;
   return result;
 }
 
@@ -47,13 +63,18 @@ struct Data {
     return {adapter, correspondences::allIndices(adapter.getNumberCorrespondences2d2d()),
             correspondences::allIndices(adapter.getNumberCorrespondences2d3d())};
   }
-  PlainPose plain(const FocalPose& pose) const { return toPlain(arrays.normalization().apply(pose)); }
-  double reprojection(const FocalPose& pose, std::size_t i) const {
-    return hybrid_pose::reprojectionError(pose, adapter.getImagePoint2d3d(i), adapter.getPoint(i));
+  QueryPose normalized(const QueryPose& pose) const {
+    QueryPose result = pose;
+    result.position = arrays.normalization().apply(pose.position);
+    return result;
   }
-  double sampson(const FocalPose& pose, std::size_t i) const {
-    return hybrid_pose::sampsonError(pose, adapter.getImagePoint2d2d(i), adapter.getBearingVector(i), adapter.getCamOffset(i),
-                                     adapter.getCamRotation(i), adapter.getRigFocalLength(i));
+  PlainPose plain(const QueryPose& pose) const { return toPlain(normalized(pose)); }
+  double reprojection(const QueryPose& pose, std::size_t i) const {
+    return hybrid_pose::reprojectionError(pose, pose.distortion, adapter.getImagePoint2d3d(i), adapter.getPoint(i));
+  }
+  double sampson(const QueryPose& pose, std::size_t i) const {
+    return hybrid_pose::sampsonError(pose, pose.distortion, adapter.getImagePoint2d2d(i), adapter.getBearingVector(i),
+                                     adapter.getCamOffset(i), adapter.getCamRotation(i), adapter.getRigFocalLength(i));
   }
 
   test::HybridScene scene;
@@ -75,12 +96,16 @@ TEST(Kernels, ErrorsAreThoseOfTheDefinitionsAtEveryLevel) {
     const Data data(random, size, size + 2);
     std::vector<double> errors(100);
     for (const SimdLevel level : levels())
-      for (const FocalPose& pose : data.poses) {
-        kernels(level).squaredPointErrors(data.arrays.pointArrays(), data.plain(pose), errors.data());
-        for (std::size_t i = 0; i < data.scene.points.size(); ++i) expectEqualErrors(errors[i], data.reprojection(pose, i));
-        kernels(level).squaredRayErrors(data.arrays.rayArrays(), data.plain(pose), errors.data());
-        for (std::size_t i = 0; i < data.scene.bearings.size(); ++i) expectEqualErrors(errors[i], data.sampson(pose, i));
-      }
+      for (const Model& model : models())
+        for (const double distortion : model.distortions)
+          for (const FocalPose& focalPose : data.poses) {
+            const Kernels& tested = kernels(level, model.model);
+            const QueryPose pose = withDistortion(focalPose, distortion);
+            tested.squaredPointErrors(data.arrays.pointArrays(), data.plain(pose), errors.data());
+            for (std::size_t i = 0; i < data.scene.points.size(); ++i) expectEqualErrors(errors[i], data.reprojection(pose, i));
+            tested.squaredRayErrors(data.arrays.rayArrays(), data.plain(pose), errors.data());
+            for (std::size_t i = 0; i < data.scene.bearings.size(); ++i) expectEqualErrors(errors[i], data.sampson(pose, i));
+          }
   }
 }
 
@@ -96,20 +121,24 @@ TEST(Kernels, ScoresAreTheSumsOverTheInliersAtEveryLevel) {
   const double threshold = 9;
   for (const int size : {1, 8, 61}) {
     const Data data(random, size, size + 2);
-    for (const FocalPose& pose : data.poses) {
+    for (std::size_t k = 0; k < 2 * data.poses.size(); ++k) {
+      const QueryPose pose = withDistortion(data.poses[k / 2], k % 2 == 0 ? 0 : -4e-7);
+      const CameraModel model = k % 2 == 0 ? CameraModel::Pinhole : CameraModel::Radial;
       std::vector<double> reprojection, sampson;
       for (std::size_t i = 0; i < data.scene.points.size(); ++i) reprojection.push_back(data.reprojection(pose, i));
       for (std::size_t i = 0; i < data.scene.bearings.size(); ++i) sampson.push_back(data.sampson(pose, i));
       for (const SimdLevel level : levels())
         for (const std::size_t begin : {std::size_t{0}, std::size_t{8}}) {
           if (begin >= sampson.size()) continue;
-          const Score points = kernels(level).scorePoints(data.arrays.pointArrays(), data.plain(pose), threshold * threshold,
-                                                          begin, reprojection.size());
+          const Score points =
+              kernels(level, model)
+                  .scorePoints(data.arrays.pointArrays(), data.plain(pose), threshold * threshold, begin, reprojection.size());
           const Score expectedPoints = expectedScore(reprojection, begin, reprojection.size(), threshold);
           EXPECT_EQ(points.inliers, expectedPoints.inliers);
           EXPECT_NEAR(points.msac, expectedPoints.msac, 1e-8 * (1 + points.msac));
           const Score rays =
-              kernels(level).scoreRays(data.arrays.rayArrays(), data.plain(pose), threshold * threshold, begin, sampson.size());
+              kernels(level, model)
+                  .scoreRays(data.arrays.rayArrays(), data.plain(pose), threshold * threshold, begin, sampson.size());
           const Score expectedRays = expectedScore(sampson, begin, sampson.size(), threshold);
           EXPECT_EQ(rays.inliers, expectedRays.inliers);
           EXPECT_NEAR(rays.msac, expectedRays.msac, 1e-8 * (1 + rays.msac));
@@ -131,26 +160,49 @@ TEST(Kernels, APoseThatIsNotANumberHasNoInliers) {
 
 // ---- normal equations ----
 
-constexpr int kParameters = correspondences::kFocalPoseParameters;
-
 constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Mixture};
 
-NormalEquations sums(SimdLevel level, const Data& data, const FocalPose& normalized, const KindLoss& loss, bool points, bool rays,
-                     correspondences::PaddedPointer narrowing = {}) {
+int parametersOf(CameraModel model) {
+  return model == CameraModel::Pinhole ? correspondences::kFocalPoseParameters : kMostParameters;
+}
+
+NormalEquations sums(const Kernels& tested, const Data& data, const QueryPose& normalized, const KindLoss& loss, bool points,
+                     bool rays, correspondences::PaddedPointer narrowing = {}) {
   NormalEquations result;
-  if (points) kernels(level).addPoints(data.arrays.pointArrays(), toPlain(normalized), loss, result);
+  if (points) tested.addPoints(data.arrays.pointArrays(), toPlain(normalized), loss, result);
   RayArrays rayArrays = data.arrays.rayArrays();
   rayArrays.narrowing = narrowing;
-  if (rays) kernels(level).addRays(rayArrays, toPlain(normalized), loss, result);
+  if (rays) tested.addRays(rayArrays, toPlain(normalized), loss, result);
   return result;
 }
 
-FocalPose moved(const FocalPose& pose, int parameter, double step) {
-  FocalPose result = pose;
+// The distortion is measured in units in which a step is as large as the others'.
+constexpr double kDistortionUnit = 1e-6;
+
+QueryPose moved(const QueryPose& pose, int parameter, double step) {
+  QueryPose result = pose;
   if (parameter < 3) result.rotation = pose.rotation * Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(parameter));
   if (parameter >= 3 && parameter < 6) result.position[parameter - 3] += step;
   if (parameter == 6) result.focalLength *= std::exp(step);
+  if (parameter == 7) result.distortion += kDistortionUnit * step;
   return result;
+}
+
+double unitOf(int parameter) { return parameter == 7 ? kDistortionUnit : 1; }
+
+// gradient = J^T W e is half the derivative of the cost.
+void expectGradientIsTheDifference(const Kernels& tested, int parameters, const Data& data, const QueryPose& pose,
+                                   const KindLoss& loss, bool points, correspondences::PaddedPointer narrowing = {}) {
+  const auto at = [&](const QueryPose& p) { return sums(tested, data, p, loss, points, !points, narrowing); };
+  const NormalEquations here = at(pose);
+  if (!std::isfinite(here.cost)) return;  // something is behind a camera
+  const double h = 1e-6;
+  for (int i = 0; i < parameters; ++i) {
+    const double difference = (at(moved(pose, i, h)).cost - at(moved(pose, i, -h)).cost) / (2 * h);
+    EXPECT_NEAR(2 * unitOf(i) * here.gradient[i], difference, 1e-5 * (1 + std::abs(difference)) + 1e-13 * here.cost / h)
+        << "loss " << static_cast<int>(loss.loss) << " points " << points << " parameter " << i << " distortion "
+        << pose.distortion;
+  }
 }
 
 double expectedCost(double error, const KindLoss& loss, double narrowing = 1) {
@@ -169,34 +221,25 @@ TEST(Kernels, CostsAreThoseOfTheLossAtEveryLevel) {
       const KindLoss spec{loss, 1000, 0.25, 1e9};  // wide: no error is infinite
       double points = 0, rays = 0;
       for (std::size_t i = 0; i < data.scene.points.size(); ++i) points += expectedCost(data.reprojection(pose, i), spec);
-      const FocalPose normalized = data.arrays.normalization().apply(pose);
-      EXPECT_NEAR(sums(level, data, normalized, spec, true, false).cost, points, 1e-8 * points);
+      const QueryPose normalized = data.normalized(pose);
+      EXPECT_NEAR(sums(kernels(level), data, normalized, spec, true, false).cost, points, 1e-8 * points);
       for (std::size_t i = 0; i < data.scene.bearings.size(); ++i) rays += expectedCost(data.sampson(pose, i), spec);
-      EXPECT_NEAR(sums(level, data, normalized, spec, false, true).cost, rays, 1e-8 * rays);
+      EXPECT_NEAR(sums(kernels(level), data, normalized, spec, false, true).cost, rays, 1e-8 * rays);
     }
 }
 
-// gradient = J^T W e is half the derivative of the cost.
 TEST(Kernels, GradientsAreTheCentralDifferencesOfTheCostAtEveryLevel) {
   test::Random random(test::testSeed(), 14);
   const Data data(random, 61, 63);
   for (const Loss loss : kLosses)
     for (const bool points : {true, false})
       for (const SimdLevel level : levels())
-        for (int k = 0; k < 4; ++k) {
-          const FocalPose pose = data.arrays.normalization().apply(data.poses[static_cast<std::size_t>(k)]);
-          const KindLoss spec{loss, 30, 2, 50};
-          const NormalEquations at = sums(level, data, pose, spec, points, !points);
-          if (!std::isfinite(at.cost)) continue;  // something is behind a camera
-          for (int i = 0; i < kParameters; ++i) {
-            const double h = 1e-6;
-            const double difference = (sums(level, data, moved(pose, i, h), spec, points, !points).cost -
-                                       sums(level, data, moved(pose, i, -h), spec, points, !points).cost) /
-                                      (2 * h);
-            EXPECT_NEAR(2 * at.gradient[i], difference, 1e-5 * (1 + std::abs(difference)) + 1e-13 * at.cost / h)
-                << "loss " << static_cast<int>(loss) << " points " << points << " parameter " << i;
-          }
-        }
+        for (const Model& model : models())
+          for (const double distortion : model.distortions)
+            for (std::size_t k = 0; k < 4; ++k)
+              expectGradientIsTheDifference(kernels(level, model.model), parametersOf(model.model), data,
+                                            withDistortion(data.normalized(data.poses[k]), distortion), {loss, 30, 2, 50},
+                                            points);
 }
 
 TEST(Kernels, ANarrowedLossIsNarrowerWithTheSameCurvatureAtEveryLevel) {
@@ -205,22 +248,16 @@ TEST(Kernels, ANarrowedLossIsNarrowerWithTheSameCurvatureAtEveryLevel) {
   std::vector<double> values(61);
   for (double& value : values) value = random.uniform(1, 50);
   const correspondences::PaddedValues narrowing(values, 1);
-  const FocalPose pose = data.arrays.normalization().apply(data.poses[0]);
+  const QueryPose pose = data.normalized(data.poses[0]);
   for (const Loss loss : kLosses)
     for (const SimdLevel level : levels()) {
       const KindLoss spec{loss, 1000, 0.25, 1e9};  // wide: no error is infinite
       double cost = 0;
       for (std::size_t i = 0; i < data.scene.bearings.size(); ++i)
         cost += expectedCost(data.sampson(data.poses[0], i), spec, narrowing[i]);
-      const NormalEquations at = sums(level, data, pose, spec, false, true, narrowing.pointer());
-      EXPECT_NEAR(at.cost, cost, 1e-8 * cost);
-      for (int i = 0; i < kParameters; ++i) {
-        const double h = 1e-6;
-        const double difference = (sums(level, data, moved(pose, i, h), spec, false, true, narrowing.pointer()).cost -
-                                   sums(level, data, moved(pose, i, -h), spec, false, true, narrowing.pointer()).cost) /
-                                  (2 * h);
-        EXPECT_NEAR(2 * at.gradient[i], difference, 1e-5 * (1 + std::abs(difference)) + 1e-13 * at.cost / h);
-      }
+      EXPECT_NEAR(sums(kernels(level), data, pose, spec, false, true, narrowing.pointer()).cost, cost, 1e-8 * cost);
+      expectGradientIsTheDifference(kernels(level), correspondences::kFocalPoseParameters, data, pose, spec, false,
+                                    narrowing.pointer());
     }
 }
 
@@ -230,14 +267,21 @@ TEST(Kernels, LeveragesAreEqualAtAllLevels) {
   Eigen::Matrix<double, kMostParameters, kMostParameters> covariance;
   covariance.setIdentity();
   covariance(2, 5) = covariance(5, 2) = 0.5;
-  const PlainPose pose = data.plain(data.poses[0]);
-  for (const Loss loss : kLosses) {
-    std::vector<double> expected(64), actual(64);
-    const KindLoss spec{loss, 20, 0.5, 50};
-    kernels(SimdLevel::Baseline).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), expected.data());
-    for (const SimdLevel level : levels()) {
-      kernels(level).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), actual.data());
-      for (std::size_t i = 0; i < 61; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-9 * (1 + expected[i]));
+  covariance.row(7) *= kDistortionUnit;
+  covariance.col(7) *= kDistortionUnit;
+  for (const Model& model : models()) {
+    const PlainPose pose = data.plain(withDistortion(data.poses[0], model.distortions[0]));
+    for (const Loss loss : kLosses) {
+      std::vector<double> expected(64), actual(64);
+      const KindLoss spec{loss, 20, 0.5, 50};
+      const auto leverages = [&](SimdLevel level, std::vector<double>& result) {
+        kernels(level, model.model).rayLeverages(data.arrays.rayArrays(), pose, spec, covariance.data(), result.data());
+      };
+      leverages(SimdLevel::Baseline, expected);
+      for (const SimdLevel level : levels()) {
+        leverages(level, actual);
+        for (std::size_t i = 0; i < 61; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-9 * (1 + expected[i]));
+      }
     }
   }
 }
@@ -245,71 +289,119 @@ TEST(Kernels, LeveragesAreEqualAtAllLevels) {
 // With one ray J^T J is the square of the error's derivative, which the Sampson denominator enters.
 TEST(Kernels, OneRaysInformationIsTheSquareOfTheCentralDifferenceOfItsError) {
   test::Random random(test::testSeed(), 15);
-  for (int repeat = 0; repeat < 50; ++repeat) {
-    const Data data(random, 1, 4);
-    const FocalPose pose = data.arrays.normalization().apply(test::perturbed(random, data.scene.truth, 0.02, 0.2, 0.05));
-    const auto error = [&](const FocalPose& at) {
-      double squared[correspondences::kPadding];
-      kernels().squaredRayErrors(data.arrays.rayArrays(), toPlain(at), squared);
-      return std::sqrt(squared[0]);
-    };
-    if (!(error(pose) > 1 && error(pose) < 1e6)) continue;  // where the sign changes there is no derivative
-    Eigen::Matrix<double, kParameters, 1> derivative;
-    const double h = 1e-6;
-    for (int i = 0; i < kParameters; ++i) derivative[i] = (error(moved(pose, i, h)) - error(moved(pose, i, -h))) / (2 * h);
-    if (!derivative.allFinite()) continue;
-    const NormalEquations at = sums(math::supportedSimdLevel(), data, pose, {}, false, true);
-    const double tolerance = 1e-5 * derivative.squaredNorm();
-    for (int row = 0; row < kParameters; ++row)
-      for (int column = row; column < kParameters; ++column)
-        EXPECT_NEAR(at.hessian[row][column], derivative[row] * derivative[column], tolerance);
-  }
+  for (const Model& model : models())
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      const Data data(random, 1, 4);
+      const Kernels& tested = kernels(math::supportedSimdLevel(), model.model);
+      const double distortion = model.distortions[static_cast<std::size_t>(repeat) % model.distortions.size()];
+      const QueryPose pose =
+          withDistortion(data.normalized(test::perturbed(random, data.scene.truth, 0.02, 0.2, 0.05)), distortion);
+      const auto error = [&](const QueryPose& at) {
+        double squared[correspondences::kPadding];
+        tested.squaredRayErrors(data.arrays.rayArrays(), toPlain(at), squared);
+        return std::sqrt(squared[0]);
+      };
+      if (!(error(pose) > 1 && error(pose) < 1e6)) continue;  // where the sign changes there is no derivative
+      Eigen::VectorXd derivative(parametersOf(model.model));
+      const double h = 1e-6;
+      for (int i = 0; i < derivative.size(); ++i)
+        derivative[i] = (error(moved(pose, i, h)) - error(moved(pose, i, -h))) / (2 * h);
+      if (!derivative.allFinite()) continue;
+      const NormalEquations at = sums(tested, data, pose, {}, false, true);
+      const double tolerance = 1e-5 * derivative.squaredNorm();
+      for (int row = 0; row < derivative.size(); ++row)
+        for (int column = row; column < derivative.size(); ++column)
+          EXPECT_NEAR(unitOf(row) * unitOf(column) * at.hessian[row][column], derivative[row] * derivative[column], tolerance);
+    }
 }
 
 // The same for one point, which has two errors.
 TEST(Kernels, APointsInformationIsTheSquareOfTheCentralDifferencesOfItsProjection) {
   test::Random random(test::testSeed(), 19);
-  for (int repeat = 0; repeat < 50; ++repeat) {
-    const Data data(random, 1, 1);
-    const FocalPose pose = test::perturbed(random, data.scene.truth, 0.02, 0.2, 0.05);
-    const FocalPose normalized = data.arrays.normalization().apply(pose);
-    const Eigen::Vector3d point = data.arrays.points()[0].point;
-    const auto projection = [&](const FocalPose& at) {
-      const Eigen::Vector3d y = at.rotation.transpose() * (point - at.position);
-      return Eigen::Vector2d(at.focalLength * y[0] / y[2], at.focalLength * y[1] / y[2]);
-    };
-    Eigen::Matrix<double, 2, kParameters> derivative;
-    const double h = 1e-6;
-    for (int i = 0; i < kParameters; ++i)
-      derivative.col(i) = (projection(moved(normalized, i, h)) - projection(moved(normalized, i, -h))) / (2 * h);
-    const Eigen::Matrix<double, kParameters, kParameters> expected = derivative.transpose() * derivative;
-    for (const SimdLevel level : levels()) {
-      const NormalEquations at = sums(level, data, normalized, {}, true, false);
-      for (int row = 0; row < kParameters; ++row)
-        for (int column = row; column < kParameters; ++column)
-          EXPECT_NEAR(at.hessian[row][column], expected(row, column),
-                      1e-6 * std::sqrt(expected(row, row) * expected(column, column)) + 1e-3);
+  for (const Model& model : models())
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      const Data data(random, 1, 1);
+      const double distortion = model.distortions[static_cast<std::size_t>(repeat) % model.distortions.size()];
+      const QueryPose pose =
+          withDistortion(data.normalized(test::perturbed(random, data.scene.truth, 0.02, 0.2, 0.05)), distortion);
+      const Eigen::Vector3d point = data.arrays.points()[0].point;
+      const auto projection = [&](const QueryPose& at) {
+        const Eigen::Vector3d y = at.rotation.transpose() * (point - at.position);
+        return Eigen::Vector2d(distort(at.distortion, {at.focalLength * y[0], at.focalLength * y[1], y[2]})->head<2>());
+      };
+      Eigen::Matrix2Xd derivative(2, parametersOf(model.model));
+      const double h = 1e-6;
+      for (int i = 0; i < derivative.cols(); ++i)
+        derivative.col(i) = (projection(moved(pose, i, h)) - projection(moved(pose, i, -h))) / (2 * h);
+      const Eigen::MatrixXd expected = derivative.transpose() * derivative;
+      for (const SimdLevel level : levels()) {
+        const NormalEquations at = sums(kernels(level, model.model), data, pose, {}, true, false);
+        for (int row = 0; row < derivative.cols(); ++row)
+          for (int column = row; column < derivative.cols(); ++column)
+            EXPECT_NEAR(unitOf(row) * unitOf(column) * at.hessian[row][column], expected(row, column),
+                        1e-6 * std::sqrt(expected(row, row) * expected(column, column)) + 1e-3);
+      }
     }
-  }
 }
 
 TEST(Kernels, NormalEquationsAreEqualAtAllLevels) {
   test::Random random(test::testSeed(), 16);
   const Data data(random, 61, 63);
-  for (const Loss loss : kLosses) {
-    const FocalPose pose = data.arrays.normalization().apply(data.poses[1]);
-    const KindLoss spec{loss, 20, 0.5, 50};
-    const NormalEquations expected = sums(SimdLevel::Baseline, data, pose, spec, true, true);
-    for (const SimdLevel level : levels()) {
-      const NormalEquations actual = sums(level, data, pose, spec, true, true);
-      if (std::isfinite(expected.cost)) {
-        EXPECT_NEAR(actual.cost, expected.cost, 1e-9 * expected.cost);
+  for (const Model& model : models())
+    for (const Loss loss : kLosses) {
+      const QueryPose pose = withDistortion(data.normalized(data.poses[1]), model.distortions[0]);
+      const KindLoss spec{loss, 20, 0.5, 50};
+      const NormalEquations expected = sums(kernels(SimdLevel::Baseline, model.model), data, pose, spec, true, true);
+      for (const SimdLevel level : levels()) {
+        const NormalEquations actual = sums(kernels(level, model.model), data, pose, spec, true, true);
+        if (std::isfinite(expected.cost)) {
+          EXPECT_NEAR(actual.cost, expected.cost, 1e-9 * expected.cost);
+        }
+        for (int row = 0; row < parametersOf(model.model); ++row)
+          for (int column = row; column < parametersOf(model.model); ++column)
+            EXPECT_NEAR(unitOf(row) * unitOf(column) * actual.hessian[row][column],
+                        unitOf(row) * unitOf(column) * expected.hessian[row][column], 1e-7 * expected.hessian[0][0]);
       }
-      for (int row = 0; row < kParameters; ++row)
-        for (int column = row; column < kParameters; ++column)
-          EXPECT_NEAR(actual.hessian[row][column], expected.hessian[row][column], 1e-7 * expected.hessian[0][0]);
     }
+}
+
+TEST(Kernels, WithoutDistortionARadialCameraIsAPinholeCamera) {
+  test::Random random(test::testSeed(), 20);
+  const Data data(random, 61, 63);
+  const QueryPose pose = data.normalized(data.poses[0]);
+  for (const SimdLevel level : levels()) {
+    const NormalEquations pinhole = sums(kernels(level), data, pose, {}, true, true);
+    const NormalEquations radial = sums(kernels(level, CameraModel::Radial), data, pose, {}, true, true);
+    EXPECT_NEAR(radial.cost, pinhole.cost, 1e-9 * pinhole.cost);
+    for (int row = 0; row < correspondences::kFocalPoseParameters; ++row)
+      for (int column = row; column < correspondences::kFocalPoseParameters; ++column)
+        EXPECT_NEAR(radial.hessian[row][column], pinhole.hessian[row][column], 1e-9 * pinhole.hessian[0][0]);
   }
+  EXPECT_EQ(&kernelsFor(toPlain(pose)), &kernels());
+  EXPECT_EQ(&kernelsFor(toPlain(withDistortion(pose, -1e-9))), &kernels(CameraModel::Radial));
+}
+
+// Points that strong pincushion distortion moves beyond every image point, and rays at image points that see nothing.
+TEST(Kernels, WhatALensCannotSeeHasAnInfiniteErrorAndNoWeight) {
+  test::Random random(test::testSeed(), 21);
+  const Data data(random, 40, 40);
+  for (const double distortion : {-1e-4, 1e-4})
+    for (const SimdLevel level : levels()) {
+      const Kernels& tested = kernels(level, CameraModel::Radial);
+      const QueryPose pose = withDistortion(data.poses[0], distortion);
+      std::vector<double> points(48), rays(48);
+      tested.squaredPointErrors(data.arrays.pointArrays(), data.plain(pose), points.data());
+      tested.squaredRayErrors(data.arrays.rayArrays(), data.plain(pose), rays.data());
+      int infinite = 0;
+      for (std::size_t i = 0; i < 40; ++i) {
+        infinite += std::isinf(points[i]) + std::isinf(rays[i]);
+        EXPECT_FALSE(std::isnan(points[i]) || std::isnan(rays[i]));
+      }
+      EXPECT_GT(infinite, 10);
+      const NormalEquations at = sums(tested, data, data.normalized(pose), {Loss::Truncated, 30, 2, 50}, true, true);
+      EXPECT_TRUE(std::isfinite(at.cost));
+      for (int row = 0; row < kMostParameters; ++row) EXPECT_TRUE(std::isfinite(at.gradient[row]));
+    }
 }
 
 }  // namespace

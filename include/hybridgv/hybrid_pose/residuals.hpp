@@ -19,6 +19,14 @@ namespace hybrid_pose {
 /// \return pixels; infinite if the point is not in front of the query (z <= 0) or anything is not finite. Never NaN.
 HYBRIDGV_EXPORT double reprojectionError(const FocalPose& pose, const Eigen::Vector3d& imagePoint, const Eigen::Vector3d& point);
 
+/// The same in an image with radial distortion: the projection is distorted (distortion.hpp), so that the error is one in pixels of
+/// the image as it is.
+///
+/// \param distortion  of the division model [1/px^2]
+/// \return pixels; infinite also where the projection is seen nowhere, 4 distortion (u^2 + v^2) >= 1. Never NaN.
+HYBRIDGV_EXPORT double reprojectionError(const FocalPose& pose, double distortion, const Eigen::Vector3d& imagePoint,
+                                         const Eigen::Vector3d& point);
+
 /// Sampson error of a 2D-2D correspondence: to first order, how far the two image points (query and map) must move together to
 /// satisfy the epipolar constraint.
 ///
@@ -46,6 +54,15 @@ HYBRIDGV_EXPORT double reprojectionError(const FocalPose& pose, const Eigen::Vec
 ///         two lines decide; parallel rays do not meet), if the query lies in the rig camera's centre, or if anything is not
 ///         finite. Never NaN.
 HYBRIDGV_EXPORT double sampsonError(const FocalPose& pose, const Eigen::Vector3d& imagePoint,
+                                    const Eigen::Vector3d& bearingVector, const Eigen::Vector3d& camOffset,
+                                    const Eigen::Matrix3d& camRotation, double rigFocalLength);
+
+/// The same in an image with radial distortion, where (u, v) is seen in the direction w = u r1 + v r2 + f (1 + c (u^2 + v^2)) r3,
+/// c the distortion. The derivatives of C by the query's pixels are then r1 . l + 2 c f u r3 . l and r2 . l + 2 c f v r3 . l.
+///
+/// \param distortion  of the division model [1/px^2] (distortion.hpp)
+/// \return pixels; infinite also for 1 + c (u^2 + v^2) <= 0. Never NaN.
+HYBRIDGV_EXPORT double sampsonError(const FocalPose& pose, double distortion, const Eigen::Vector3d& imagePoint,
                                     const Eigen::Vector3d& bearingVector, const Eigen::Vector3d& camOffset,
                                     const Eigen::Matrix3d& camRotation, double rigFocalLength);
 

@@ -8,11 +8,14 @@ namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
 struct Epipolar {
-  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel) {
+  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel)
+      : Epipolar(rays, i, pose, unknownPixel, pose.f) {}
+  // `depth`: of the viewing direction (u, v, depth) in the query's frame.
+  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel, Doubles depth) {
     direction = {load<Doubles>(rays.dx + i), load<Doubles>(rays.dy + i), load<Doubles>(rays.dz + i)};
     imageNormal = {load<Doubles>(rays.ax + i), load<Doubles>(rays.ay + i), load<Doubles>(rays.az + i)};
     const Vec3<Doubles> centre{load<Doubles>(rays.cx + i), load<Doubles>(rays.cy + i), load<Doubles>(rays.cz + i)};
-    image = {load<Doubles>(rays.u + i), load<Doubles>(rays.v + i), pose.f};
+    image = {load<Doubles>(rays.u + i), load<Doubles>(rays.v + i), depth};
     w = image.x * pose.r1 + image.y * pose.r2 + image.z * pose.r3;
     t = centre - pose.position;
     l = cross(t, direction);
@@ -50,15 +53,14 @@ using Row = Doubles[N];
 //   dG/2 = (r3.l) (l2, -l1, 0) . rotation + R^T (w x (t x m)) h . rotation
 //        + ((l1 r1 + l2 r2) x D + h w x m) . dposition + (h f r3 . (t x m) - hq m.n) dlogf
 // where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
-HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose,
-                                   Row<correspondences::kFocalPoseParameters>& derivatives) {
+HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose, Doubles* derivatives) {
   const Doubles l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
   const Vec3<Doubles> m = ray.n - ray.alongNormal * ray.imageNormal;
   const Vec3<Doubles> tm = cross(ray.t, m);
   const Vec3<Doubles> constraintByRotation = cross(ray.image, Vec3<Doubles>{ray.l1, ray.l2, l3});
   const Vec3<Doubles> mapByRotation = h * pose.toQuery(cross(ray.w, tm));
   const Vec3<Doubles> varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
-  const Doubles varianceByFocal = h * pose.f * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
+  const Doubles varianceByFocal = h * ray.image.z * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
   const Doubles ratio = ray.constraint / variance;
   derivatives[0] = constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x);
   derivatives[1] = constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1);
@@ -66,7 +68,7 @@ HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const 
   derivatives[3] = ray.s.x - ratio * varianceByPosition.x;
   derivatives[4] = ray.s.y - ratio * varianceByPosition.y;
   derivatives[5] = ray.s.z - ratio * varianceByPosition.z;
-  derivatives[6] = pose.f * l3 - ratio * varianceByFocal;
+  derivatives[6] = ray.image.z * l3 - ratio * varianceByFocal;
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET

@@ -5,13 +5,20 @@
 namespace hybridgv {
 namespace robust {
 
-HYBRIDGV_VERSIONS(Kernels, kKernels)
+HYBRIDGV_VERSIONS(Kernels, kPinholeKernels)
+HYBRIDGV_VERSIONS(Kernels, kRadialKernels)
 
-const Kernels& kernels(math::SimdLevel level) {
-  return math::choose(level, baseline::kKernels, avx2::kKernels, avx512::kKernels);
+const Kernels& kernels(math::SimdLevel level, CameraModel model) {
+  return model == CameraModel::Pinhole
+             ? math::choose(level, baseline::kPinholeKernels, avx2::kPinholeKernels, avx512::kPinholeKernels)
+             : math::choose(level, baseline::kRadialKernels, avx2::kRadialKernels, avx512::kRadialKernels);
 }
 
-const Kernels& kernels() { return kernels(math::simdLevel()); }
+const Kernels& kernels(CameraModel model) { return kernels(math::simdLevel(), model); }
+
+const Kernels& kernelsFor(const PlainPose& pose) {
+  return kernels(pose.distortion == 0 ? CameraModel::Pinhole : CameraModel::Radial);
+}
 
 }  // namespace robust
 }  // namespace hybridgv

@@ -68,10 +68,14 @@ struct Kernels {
   void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
 };
 
+enum class CameraModel { Pinhole, Radial };
+
 // `level` must be supported by the processor.
-const Kernels& kernels(math::SimdLevel level);
+const Kernels& kernels(math::SimdLevel level, CameraModel model = CameraModel::Pinhole);
 // The best ones (see simdLevel).
-const Kernels& kernels();
+const Kernels& kernels(CameraModel model = CameraModel::Pinhole);
+// The best ones for errors at this pose: without distortion, those for pinhole images do, and take less time.
+const Kernels& kernelsFor(const PlainPose& pose);
 
 }  // namespace robust
 }  // namespace hybridgv

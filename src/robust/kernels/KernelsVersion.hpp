@@ -4,6 +4,7 @@
 #include "robust/kernels/Leverages.hpp"
 #include "robust/kernels/Pinhole.hpp"
 #include "robust/kernels/PointEquations.hpp"
+#include "robust/kernels/Radial.hpp"
 #include "robust/kernels/RayEquations.hpp"
 #include "robust/kernels/Scores.hpp"
 
@@ -17,8 +18,9 @@ constexpr Kernels makeKernels() {
           &addPoints<Camera>,          &addRays<Camera>,          &rayLeverages<Camera>};
 }
 
-extern const Kernels kKernels;
-const Kernels kKernels = makeKernels<Pinhole>();
+extern const Kernels kPinholeKernels, kRadialKernels;
+const Kernels kPinholeKernels = makeKernels<Pinhole>();
+const Kernels kRadialKernels = makeKernels<Radial>();
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust

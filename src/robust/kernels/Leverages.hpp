@@ -11,7 +11,7 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 template <class Camera>
 static void rayLeverages(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, const double* covariance,
                          double* leverages) {
-  const Pose pose(plainPose);
+  const typename Camera::Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);

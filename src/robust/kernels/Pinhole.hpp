@@ -9,9 +9,10 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-// What the kernels, templates on the camera model, need of one: how it sees a point and a ray, the sums of the points' normal
+// What the kernels, templates on the camera model, need of one: its pose, how it sees a point and a ray, the sums of the points' normal
 // equations, and the number of parameters by which it derives. So every model has the instructions that it needs and no others.
 struct Pinhole {
+  using Pose = robust::HYBRIDGV_INSTRUCTION_SET::Pose;
   using Point = Reprojection;
   using Ray = Epipolar;
   using PointSums = PinholePointSums;

@@ -1,6 +1,7 @@
 // The sums of the normal equations of 2D-3D correspondences in a pinhole image.
 #pragma once
 
+#include "robust/kernels/NormalEquationsSum.hpp"
 #include "robust/kernels/Reprojection.hpp"
 
 namespace hybridgv {
@@ -81,31 +82,11 @@ class PinholePointSums {
     hessian[6][6] = hessian[2][2];
     hessian[5][6] = sum(radii_[1]);
     hessian[5][5] = sum(radii_[2]);
-    for (int row = 0; row < kParameters; ++row)
-      for (int column = 0; column < row; ++column) hessian[row][column] = hessian[column][row];
-
-    // The position in the rig's frame: its derivatives are R times those in the query's.
-    turnPosition(pose, gradient);
-    for (auto& row : hessian) turnPosition(pose, row);
-    for (int column = 0; column < kParameters; ++column) {
-      double entries[kParameters] = {};
-      for (int row = 0; row < kParameters; ++row) entries[row] = hessian[row][column];
-      turnPosition(pose, entries);
-      for (int row = 0; row < kParameters; ++row) hessian[row][column] = entries[row];
-    }
-    for (int row = 0; row < kParameters; ++row) {
-      total.gradient[row] += gradient[row];
-      for (int column = row; column < kParameters; ++column) total.hessian[row][column] += hessian[row][column];
-    }
+    addTurned(pose, gradient, hessian, total);
   }
 
  private:
   static constexpr int kParameters = correspondences::kFocalPoseParameters;
-
-  static void turnPosition(const PlainPose& pose, double* entries) {
-    const double x = entries[3], y = entries[4], z = entries[5];
-    for (int k = 0; k < 3; ++k) entries[3 + k] = pose.r1[k] * x + pose.r2[k] * y + pose.r3[k] * z;
-  }
 
   // Rotation by rotation about the image's axes and about the optical axis, by shifts in the image plane and in depth, by log f;
   // position by position in the image plane and by the rest; and what is a sum over u^2 + v^2.

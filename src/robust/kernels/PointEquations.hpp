@@ -11,7 +11,7 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 template <class Camera>
 static void addPoints(const PointArrays& points, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (points.size == 0) return;
-  const Pose pose(plainPose);
+  const typename Camera::Pose pose(plainPose);
   const Doubles inverseFocal = broadcast<Doubles>(1 / plainPose.focalLength);
   CostSum cost(loss);
   typename Camera::PointSums sums;

@@ -22,10 +22,17 @@ struct Pose {
         positionInQuery(toQuery(position)),
         f(broadcast<Doubles>(pose.focalLength)) {}
   Vec3<Doubles> toQuery(const Vec3<Doubles>& v) const { return {dot(r1, v), dot(r2, v), dot(r3, v)}; }
+  Vec3<Doubles> toRig(const Vec3<Doubles>& v) const { return v.x * r1 + v.y * r2 + v.z * r3; }
   Vec3<Doubles> r1, r2, r3;       // columns of the rotation R
   Vec3<Doubles> position;         // p
   Vec3<Doubles> positionInQuery;  // R^T p
   Doubles f;
+};
+
+// That of a camera with radial distortion.
+struct RadialPose : Pose {
+  explicit RadialPose(const PlainPose& pose) : Pose(pose), distortion(broadcast<Doubles>(pose.distortion)) {}
+  Doubles distortion;  // c
 };
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET

@@ -18,6 +18,9 @@ struct Reprojection {
     scale = pose.f / inQuery.z;
     projectedU = scale * inQuery.x;
     projectedV = scale * inQuery.y;
+    compare(points, i);
+  }
+  void compare(const PointArrays& points, std::size_t i) {
     errorU = projectedU - load<Doubles>(points.u + i);
     errorV = projectedV - load<Doubles>(points.v + i);
     squaredError = errorU * errorU + errorV * errorV;

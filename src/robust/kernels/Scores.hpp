@@ -10,7 +10,7 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 
 template <class Camera>
 static void squaredPointErrors(const PointArrays& points, const PlainPose& plainPose, double* errors) {
-  const Pose pose(plainPose);
+  const typename Camera::Pose pose(plainPose);
   for (std::size_t i = 0; i < points.size; i += kWidth) {
     const typename Camera::Point point(points, i, pose);
     const DoubleMask valid = point.inFront & (point.squaredError < kInfinity);
@@ -21,7 +21,7 @@ static void squaredPointErrors(const PointArrays& points, const PlainPose& plain
 
 template <class Camera>
 static void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
-  const Pose pose(plainPose);
+  const typename Camera::Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
@@ -50,7 +50,7 @@ class ScoreSum {
 template <class Camera>
 static Score scorePoints(const PointArrays& points, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
                          std::size_t end) {
-  const Pose pose(plainPose);
+  const typename Camera::Pose pose(plainPose);
   ScoreSum result(squaredThreshold);
   forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
     const typename Camera::Point point(points, i, pose);
@@ -62,7 +62,7 @@ static Score scorePoints(const PointArrays& points, const PlainPose& plainPose, 
 template <class Camera>
 static Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double squaredThreshold, std::size_t begin,
                        std::size_t end) {
-  const Pose pose(plainPose);
+  const typename Camera::Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   ScoreSum result(squaredThreshold);
   forRange(begin, end, [&](std::size_t i, DoubleMask inRange) {
