@@ -38,6 +38,7 @@ void readCameras(const std::string& path, ColmapBuilder& builder) {
       if (builder.mending().options().strict) throw unknown;
       if (unknownSizes.empty() && !findUnknownModelSizes(in.contents(), unknownSizes)) throw unknown;
       parameters = unknownSizes.at(number);
+      camera.unknownModel = std::to_string(number);
     }
     camera.width = in.u64("the camera's width");
     camera.height = in.u64("the camera's height");

@@ -27,12 +27,13 @@ class ColmapBuilder {
   void addCamera(const Scanner& in, Camera camera, const std::string& modelName) {
     check(in, cameraIndex_.add(camera.id, model_.cameras.size()));
     const std::string fault = findCameraFault(camera);
-    if (camera.model == CameraModel::Unknown)
+    if (camera.model == CameraModel::Unknown) {
       mending_.note(Mend::UnknownCameraModel, [&] {
         return in.error("the camera model " + modelName + " of camera " + std::to_string(camera.id) + " is not known");
       });
-    else if (!fault.empty())
+    } else if (!fault.empty()) {
       mending_.note(Mend::UnusableCamera, [&] { return in.error("camera " + std::to_string(camera.id) + ": " + fault); });
+    }
     isUsable_.push_back(fault.empty());
     model_.cameras.push_back(std::move(camera));
   }
@@ -103,7 +104,11 @@ class ColmapBuilder {
     image_.camera = camera;
     image_.registered = isUsable_[camera];
     const std::string fault = setPoseFromQuaternion(q, t, image_);
-    if (fault.empty()) return true;
+    if (fault.empty()) {
+      image_.storedPose = {q[0], q[1], q[2], q[3], t[0], t[1], t[2]};
+      image_.carried = !image_.registered;
+      return true;
+    }
     mending_.note(Mend::ImageWithoutUsablePose, [&] { return in.error("image " + std::to_string(id) + ": " + fault); });
     image_.registered = false;
     image_.rotation.setIdentity();
@@ -113,7 +118,7 @@ class ColmapBuilder {
   Image& image() { return image_; }
   void endImage() {
     if (!isImageKept_) return;
-    if (!image_.registered) image_.observations.clear();
+    if (!image_.registered && !image_.carried) image_.observations.clear();
     model_.images.push_back(std::move(image_));
   }
 

@@ -4,13 +4,23 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "ModelLinks.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 
 namespace hybridgv {
 namespace sfm {
 
+// Does the stored pose still say where the image is?
+inline bool isStoredPoseValid(const Image& image) {
+  const std::array<double, 7>& p = image.storedPose;
+  Image stored;
+  return setPoseFromQuaternion(p.data(), {p[4], p[5], p[6]}, stored).empty() && stored.rotation == image.rotation &&
+         stored.position == image.position;
+}
+
 // qw qx qy qz tx ty tz of x_camera = R(q) X + t
 inline std::array<double, 7> colmapPose(const Image& image) {
+  if (isStoredPoseValid(image)) return image.storedPose;
   Eigen::Quaterniond q(Eigen::Matrix3d(image.rotation.transpose()));
   q.normalize();
   if (q.w() < 0) q.coeffs() = -q.coeffs();

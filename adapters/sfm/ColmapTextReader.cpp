@@ -46,6 +46,7 @@ void readCameras(const std::string& path, ColmapBuilder& builder) {
     camera.width = in.integer<std::uint64_t>("the camera's width");
     camera.height = in.integer<std::uint64_t>("the camera's height");
     if (camera.model == CameraModel::Unknown) {
+      camera.unknownModel = name;
       while (!in.lineEnds()) camera.parameters.push_back(in.anyNumber("a parameter of the camera"));
     } else {
       for (std::size_t i = 0; i < parameterCount(camera.model); ++i)

@@ -1,56 +1,30 @@
-#include <algorithm>
-
 #include "ByteWriter.hpp"
-#include "CameraModels.hpp"
 #include "ColmapPose.hpp"
 #include "FileContents.hpp"
 #include "ModelChecks.hpp"
 #include "NumberWriter.hpp"
 #include "RigFiles.hpp"
+#include "WrittenParts.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 
 namespace hybridgv {
 namespace sfm {
-namespace {
-
-// The cameras in COLMAP's terms, but those that only images without registration have, or that no image has and that make no
-// sense.
-std::vector<Camera> colmapCameras(const SparseModel& model) {
-  std::vector<bool> wanted;
-  for (const Camera& camera : model.cameras) wanted.push_back(findCameraFault(camera).empty());
-  for (const Image& image : model.images)
-    if (!image.registered) wanted[image.camera] = false;
-  for (const Image& image : model.images)
-    if (image.registered) wanted[image.camera] = true;
-  std::vector<Camera> result;
-  for (std::size_t i = 0; i < model.cameras.size(); ++i)
-    if (wanted[i]) result.push_back(asColmapCamera(model.cameras[i]));
-  return result;
-}
-
-std::vector<const Image*> registeredImages(const SparseModel& model) {
-  std::vector<const Image*> result;
-  for (const Image& image : model.images)
-    if (image.registered) result.push_back(&image);
-  return result;
-}
-
-}  // namespace
-
 void writeColmapText(const std::string& folder, const SparseModel& model) {
   checkModel(model);
+  const WrittenParts parts(model, WrittenParts::Format::Text);
+  FileReplacement files;
   std::string text = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n";
-  for (const Camera& camera : colmapCameras(model)) {
+  for (const Camera& camera : parts.cameras()) {
     appendNumber(text, camera.id);
-    text += std::string(" ") + toString(camera.model);
+    text += " " + WrittenParts::modelName(camera);
     appendNumbers(text, std::array<std::uint64_t, 2>{camera.width, camera.height});
     appendNumbers(text, camera.parameters);
     text += '\n';
   }
-  writeFile(joinPath(folder, "cameras.txt"), text);
+  files.write(joinPath(folder, "cameras.txt"), text);
 
   text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME\n# POINTS2D[] as (X Y POINT3D_ID)\n";
-  for (const Image* image : registeredImages(model)) {
+  for (const Image* image : parts.images()) {
     appendNumber(text, image->id);
     appendNumbers(text, colmapPose(*image));
     appendNumber(text, model.cameras[image->camera].id);
@@ -64,7 +38,7 @@ void writeColmapText(const std::string& folder, const SparseModel& model) {
     }
     text += '\n';
   }
-  writeFile(joinPath(folder, "images.txt"), text);
+  files.write(joinPath(folder, "images.txt"), text);
 
   text = "# POINT3D_ID X Y Z R G B ERROR TRACK[] as (IMAGE_ID POINT2D_IDX)\n";
   for (const Point& point : model.points) {
@@ -72,32 +46,33 @@ void writeColmapText(const std::string& folder, const SparseModel& model) {
     appendNumbers(text, point.position);
     for (const std::uint8_t channel : point.colour) appendNumber(text, static_cast<int>(channel));
     appendNumber(text, point.error);
-    for (const TrackElement& e : point.track)
+    for (const TrackElement& e : parts.track(point))
       appendNumbers(text, std::array<std::uint64_t, 2>{model.images[e.image].id, e.observation});
     text += '\n';
   }
-  writeFile(joinPath(folder, "points3D.txt"), text);
-  writeRigsText(folder, model);
+  files.write(joinPath(folder, "points3D.txt"), text);
+  writeRigsText(folder, parts, files);
+  files.commit();
 }
 
 void writeColmapBinary(const std::string& folder, const SparseModel& model) {
   checkModel(model);
+  const WrittenParts parts(model, WrittenParts::Format::Binary);
+  FileReplacement files;
   std::string bytes;
-  const std::vector<Camera> cameras = colmapCameras(model);
-  putInteger(bytes, cameras.size(), 8);
-  for (const Camera& camera : cameras) {
+  putInteger(bytes, parts.cameras().size(), 8);
+  for (const Camera& camera : parts.cameras()) {
     putInteger(bytes, camera.id, 4);
-    putInteger(bytes, static_cast<std::uint32_t>(colmapNumber(camera.model)), 4);
+    putInteger(bytes, static_cast<std::uint32_t>(WrittenParts::modelNumber(camera)), 4);
     putInteger(bytes, camera.width, 8);
     putInteger(bytes, camera.height, 8);
     for (const double value : camera.parameters) putNumber(bytes, value);
   }
-  writeFile(joinPath(folder, "cameras.bin"), bytes);
+  files.write(joinPath(folder, "cameras.bin"), bytes);
 
   bytes.clear();
-  const std::vector<const Image*> images = registeredImages(model);
-  putInteger(bytes, images.size(), 8);
-  for (const Image* image : images) {
+  putInteger(bytes, parts.images().size(), 8);
+  for (const Image* image : parts.images()) {
     putInteger(bytes, image->id, 4);
     for (const double value : colmapPose(*image)) putNumber(bytes, value);
     putInteger(bytes, model.cameras[image->camera].id, 4);
@@ -109,7 +84,7 @@ void writeColmapBinary(const std::string& folder, const SparseModel& model) {
       putInteger(bytes, o.point == Observation::kNoPoint ? ~std::uint64_t{0} : model.points[o.point].id, 8);
     }
   }
-  writeFile(joinPath(folder, "images.bin"), bytes);
+  files.write(joinPath(folder, "images.bin"), bytes);
 
   bytes.clear();
   putInteger(bytes, model.points.size(), 8);
@@ -118,14 +93,16 @@ void writeColmapBinary(const std::string& folder, const SparseModel& model) {
     for (const double value : point.position) putNumber(bytes, value);
     for (const std::uint8_t channel : point.colour) putInteger(bytes, channel, 1);
     putNumber(bytes, point.error);
-    putInteger(bytes, point.track.size(), 8);
-    for (const TrackElement& e : point.track) {
+    const std::vector<TrackElement> track = parts.track(point);
+    putInteger(bytes, track.size(), 8);
+    for (const TrackElement& e : track) {
       putInteger(bytes, model.images[e.image].id, 4);
       putInteger(bytes, e.observation, 4);
     }
   }
-  writeFile(joinPath(folder, "points3D.bin"), bytes);
-  writeRigsBinary(folder, model);
+  files.write(joinPath(folder, "points3D.bin"), bytes);
+  writeRigsBinary(folder, parts, files);
+  files.commit();
 }
 
 }  // namespace sfm

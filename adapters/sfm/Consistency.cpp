@@ -55,6 +55,7 @@ std::vector<Sample> takeSamples(const SparseModel& model, const std::vector<Lens
     for (const TrackElement& e : point.track) {
       if (index++ % step != 0) continue;
       const Image& image = model.images[e.image];
+      if (!image.registered) continue;
       const Observation& o = image.observations[e.observation];
       const auto projected = lenses[image.camera].project(image.rotation.transpose() * (point.position - image.position));
       samples.push_back(

@@ -50,10 +50,33 @@ void writeFile(const std::string& path, const std::string& contents) {
   if (!stream) throw FileError::inFile(path, "cannot be written");
 }
 
-void removeFile(const std::string& path) {
+namespace {
+
+constexpr const char* kUnfinished = ".tmp";
+
+}  // namespace
+
+FileReplacement::~FileReplacement() {
+  std::error_code ignored;
+  for (const std::string& path : written_) std::filesystem::remove(path + kUnfinished, ignored);
+}
+
+void FileReplacement::write(const std::string& path, const std::string& contents) {
+  written_.push_back(path);
+  writeFile(path + kUnfinished, contents);
+}
+
+void FileReplacement::commit() {
   std::error_code error;
-  std::filesystem::remove(path, error);
-  if (error) throw FileError::inFile(path, "cannot be removed");
+  for (const std::string& path : written_) {
+    std::filesystem::rename(path + kUnfinished, path, error);
+    if (error) throw FileError::inFile(path, "cannot be written: " + error.message());
+  }
+  for (const std::string& path : removed_) {
+    std::filesystem::remove(path, error);
+    if (error) throw FileError::inFile(path, "cannot be removed");
+  }
+  written_.clear();
 }
 
 }  // namespace sfm

@@ -53,7 +53,8 @@ void checkPoint(const SparseModel& model, std::size_t index) {
       throwInvalid(name, "the track names an observation that does not exist");
     if (model.images[e.image].observations[e.observation].point != index)
       throwInvalid(name, "the track names an observation of another point");
-    if (!model.images[e.image].registered) throwInvalid(name, "the track names an image that is not registered");
+    if (!model.images[e.image].registered && !model.images[e.image].carried)
+      throwInvalid(name, "the track names an image that is not registered");
   }
 }
 

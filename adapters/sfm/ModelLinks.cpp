@@ -116,7 +116,7 @@ class Linker {
     };
     if (image >= model_.images.size())
       return refuse(Mend::TrackOfMissingImage, [&] { return imageIndex_.unknown(entry.imageId); });
-    if (!model_.images[image].registered)
+    if (!model_.images[image].registered && !model_.images[image].carried)
       return refuse(Mend::TrackOfUnregisteredImage, [] { return std::string("the image is not registered"); });
     std::vector<Observation>& observations = model_.images[image].observations;
     if (entry.observation >= observations.size())

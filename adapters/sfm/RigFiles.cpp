@@ -279,17 +279,27 @@ class FramesToWrite {
   std::vector<SensorRig> rigs;
   std::vector<Frame> frames;
 
-  explicit FramesToWrite(const SparseModel& model) : rigs(model.rigs), model_(model) {
-    for (const Image& image : model.images)
-      if (image.registered) registered_.insert(image.id);
-    for (const Frame& frame : model.frames) addPruned(frame);
-    for (const Image& image : model.images)
-      if (image.registered && framed_.count(image.id) == 0) addOwnFrame(image);
+  explicit FramesToWrite(const WrittenParts& parts) : model_(parts.model()) {
+    std::set<std::uint32_t> cameras;
+    for (const Camera& camera : parts.cameras()) cameras.insert(camera.id);
+    for (const SensorRig& rig : model_.rigs) addIfComplete(rig, cameras);
+    for (const Image* image : parts.images()) written_.insert(image->id);
+    for (const Frame& frame : model_.frames) addPruned(frame);
+    for (const Image* image : parts.images())
+      if (framed_.count(image->id) == 0) addOwnFrame(*image);
   }
 
  private:
+  // COLMAP wants all cameras of a rig.
+  void addIfComplete(const SensorRig& rig, const std::set<std::uint32_t>& cameras) {
+    const auto isMissing = [&](const RigSensor& s) { return isCamera(s.sensor) && cameras.count(s.sensor.id) == 0; };
+    if (std::none_of(rig.sensors.begin(), rig.sensors.end(), isMissing)) rigs.push_back(rig);
+  }
+
   void addPruned(Frame frame) {
-    const auto isMissing = [&](const FrameData& datum) { return isCamera(datum.sensor) && registered_.count(datum.id) == 0; };
+    const auto isRig = [&](const SensorRig& rig) { return rig.id == frame.rigId; };
+    if (std::none_of(rigs.begin(), rigs.end(), isRig)) return;
+    const auto isMissing = [&](const FrameData& datum) { return isCamera(datum.sensor) && written_.count(datum.id) == 0; };
     frame.data.erase(std::remove_if(frame.data.begin(), frame.data.end(), isMissing), frame.data.end());
     for (const FrameData& datum : frame.data)
       if (isCamera(datum.sensor)) framed_.insert(datum.id);
@@ -328,7 +338,7 @@ class FramesToWrite {
   }
 
   const SparseModel& model_;
-  std::set<std::uint64_t> registered_, framed_;
+  std::set<std::uint64_t> written_, framed_;
 };
 
 const char* sensorWord(std::int32_t type) { return type == kCamera ? "CAMERA" : "IMU"; }
@@ -361,16 +371,16 @@ void readRigsBinary(const std::string& folder, Mending& mending, SparseModel& mo
   });
 }
 
-void writeRigsText(const std::string& folder, const SparseModel& model) {
+void writeRigsText(const std::string& folder, const WrittenParts& parts, FileReplacement& files) {
   const std::string rigsFile = joinPath(folder, "rigs.txt"), framesFile = joinPath(folder, "frames.txt");
-  if (model.rigs.empty()) {
-    removeFile(rigsFile);
-    removeFile(framesFile);
+  if (parts.model().rigs.empty()) {
+    files.remove(rigsFile);
+    files.remove(framesFile);
     return;
   }
   std::string text =
       "# RIG_ID NUM_SENSORS REF_SENSOR_TYPE REF_SENSOR_ID SENSORS[] as (SENSOR_TYPE SENSOR_ID HAS_POSE [QW QX QY QZ TX TY TZ])\n";
-  const FramesToWrite written(model);
+  const FramesToWrite written(parts);
   for (const SensorRig& rig : written.rigs) {
     appendNumber(text, rig.id);
     appendNumber(text, rig.sensors.size());
@@ -382,7 +392,7 @@ void writeRigsText(const std::string& folder, const SparseModel& model) {
     }
     text += '\n';
   }
-  writeFile(rigsFile, text);
+  files.write(rigsFile, text);
   text = "# FRAME_ID RIG_ID QW QX QY QZ TX TY TZ NUM_DATA_IDS DATA_IDS[] as (SENSOR_TYPE SENSOR_ID DATA_ID)\n";
   for (const Frame& frame : written.frames) {
     appendNumber(text, frame.id);
@@ -395,17 +405,17 @@ void writeRigsText(const std::string& folder, const SparseModel& model) {
     }
     text += '\n';
   }
-  writeFile(framesFile, text);
+  files.write(framesFile, text);
 }
 
-void writeRigsBinary(const std::string& folder, const SparseModel& model) {
+void writeRigsBinary(const std::string& folder, const WrittenParts& parts, FileReplacement& files) {
   const std::string rigsFile = joinPath(folder, "rigs.bin"), framesFile = joinPath(folder, "frames.bin");
-  if (model.rigs.empty()) {
-    removeFile(rigsFile);
-    removeFile(framesFile);
+  if (parts.model().rigs.empty()) {
+    files.remove(rigsFile);
+    files.remove(framesFile);
     return;
   }
-  const FramesToWrite written(model);
+  const FramesToWrite written(parts);
   std::string bytes;
   putInteger(bytes, written.rigs.size(), 8);
   for (const SensorRig& rig : written.rigs) {
@@ -418,7 +428,7 @@ void writeRigsBinary(const std::string& folder, const SparseModel& model) {
       for (const double value : sensor.sensorFromRig) putNumber(bytes, value);
     }
   }
-  writeFile(rigsFile, bytes);
+  files.write(rigsFile, bytes);
   bytes.clear();
   putInteger(bytes, written.frames.size(), 8);
   for (const Frame& frame : written.frames) {
@@ -431,7 +441,7 @@ void writeRigsBinary(const std::string& folder, const SparseModel& model) {
       putInteger(bytes, datum.id, 8);
     }
   }
-  writeFile(framesFile, bytes);
+  files.write(framesFile, bytes);
 }
 
 }  // namespace sfm

@@ -3,7 +3,9 @@
 
 #include <string>
 
+#include "FileContents.hpp"
 #include "Mending.hpp"
+#include "WrittenParts.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 
 namespace hybridgv {
@@ -14,10 +16,10 @@ namespace sfm {
 void readRigsText(const std::string& folder, Mending& mending, SparseModel& model);
 void readRigsBinary(const std::string& folder, Mending& mending, SparseModel& model);
 
-// Writes them without what belongs to images that are not registered. A model that has none leaves none in the folder: those of
+// Writes them without what belongs to images that are not written. A model that has none leaves none in the folder: those of
 // another model would contradict its images.
-void writeRigsText(const std::string& folder, const SparseModel& model);
-void writeRigsBinary(const std::string& folder, const SparseModel& model);
+void writeRigsText(const std::string& folder, const WrittenParts& parts, FileReplacement& files);
+void writeRigsBinary(const std::string& folder, const WrittenParts& parts, FileReplacement& files);
 
 }  // namespace sfm
 }  // namespace hybridgv

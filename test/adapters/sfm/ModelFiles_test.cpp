@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "SfmScene.hpp"
@@ -106,6 +107,33 @@ TEST(ModelFiles, WritingAgainGivesTheSameObservationsAndPoints) {
   writeColmapText(second.path(), readColmapText(first.path()));
   EXPECT_EQ(first.read("points3D.txt"), second.read("points3D.txt"));
   EXPECT_EQ(first.read("cameras.txt"), second.read("cameras.txt"));
+}
+
+// Poses too, which are stored in another way than they are held.
+TEST(ModelFiles, WhatWasReadIsWrittenBitByBit) {
+  const TemporaryFolder first, second, third;
+  writeColmapBinary(first.path(), randomModel(7));
+  SparseModel model = readColmapBinary(first.path());
+  writeColmapBinary(second.path(), model);
+  for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"})
+    EXPECT_TRUE(first.read(file) == second.read(file)) << file;
+  model.images[3].position[0] += 1;  // a pose that has changed is written as it is now
+  writeColmapBinary(third.path(), model);
+  EXPECT_NEAR(readColmapBinary(third.path()).images[3].position[0], model.images[3].position[0], 1e-12);
+}
+
+// Whoever cannot write everything leaves everything.
+TEST(ModelFiles, FailedWritingLeavesTheOldModel) {
+  const TemporaryFolder folder;
+  const SparseModel old = randomModel(8);
+  writeColmapBinary(folder.path(), old);
+  std::filesystem::create_directory(folder.file("points3D.bin.tmp"));
+  EXPECT_THROW(writeColmapBinary(folder.path(), randomModel(9)), FileError);
+  std::filesystem::remove(folder.file("points3D.bin.tmp"));
+  expectEqual(readColmapBinary(folder.path()), old);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) files += entry.is_regular_file();
+  EXPECT_EQ(files, 3u);
 }
 
 TEST(ModelFiles, BinaryIsPreferredInAFolderWithBoth) {

@@ -73,6 +73,7 @@ struct Camera {
   std::uint64_t width = 0;                         ///< [px], 0 = unknown (Bundler, NVM)
   std::uint64_t height = 0;                        ///< [px], 0 = unknown (Bundler, NVM)
   std::vector<double> parameters;                  ///< in the order given at CameraModel
+  std::string unknownModel = {};                   ///< of model Unknown: its name (text) or number (binary) in the file
 };
 
 /// fx [px]: the focal length to which the image points of undistort() belong, and the pixels per radian on the axis; for a panorama

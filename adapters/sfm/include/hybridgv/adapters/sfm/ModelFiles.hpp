@@ -60,9 +60,11 @@ HYBRIDGV_EXPORT SparseModel readBundler(const std::string& path, const ReadOptio
 /// focal lengths are fx and fy. A double quote in an image name stands for a space.
 HYBRIDGV_EXPORT SparseModel readNvm(const std::string& path, const ReadOptions& options = {}, ReadReport* report = nullptr);
 
-/// Writes cameras.txt, images.txt, points3D.txt into an existing folder; images that are not registered are left out. Rigs and
-/// frames too if the model has some; otherwise such files of another model are removed from the folder. Numbers are
-/// written with as many digits as are needed to read the same values again.
+/// Writes cameras.txt, images.txt, points3D.txt into an existing folder; images that are neither registered nor carried along
+/// (Image::carried) are left out. Rigs and frames too if the model has some; otherwise such files of another model are removed from
+/// the folder. Numbers are written with as many digits as are needed to read the same values again; what was read and has not been
+/// changed is written as it was. The files are written as FILE.tmp and take their places together at the end, so that an interrupted
+/// program leaves the old ones.
 /// \throws FileError if a file cannot be written; std::invalid_argument for a camera that COLMAP cannot describe (NvmRadial with
 ///         distortion; without, it becomes PINHOLE), or a model whose indices are not valid
 HYBRIDGV_EXPORT void writeColmapText(const std::string& folder, const SparseModel& model);

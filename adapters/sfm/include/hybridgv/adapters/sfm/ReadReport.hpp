@@ -19,7 +19,7 @@ enum class Mend {
   ColourOutOfRange,           ///< a colour that is not in 0 .. 255: clamped, 0 if it is not a number
   CutLastLine,                ///< the last line of a text file is not complete: its incomplete part left out
   NameWithSpaces,             ///< an NVM image name with spaces that are not quoted: taken as it is
-  UnknownCameraModel,         ///< a camera of an unknown model: its images are not registered
+  UnknownCameraModel,         ///< a camera of an unknown model: its images are not used, only carried along
   UnusableCamera,             ///< a camera whose focal length or parameters make no sense: its images are not registered
   ImageWithoutCamera,         ///< an image whose camera is missing: left out
   ImageWithoutUsablePose,     ///< an image whose rotation or position is no such thing: not registered
