@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <vector>
 
 #include "ModelLinks.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
@@ -26,6 +27,16 @@ inline std::array<double, 7> colmapPose(const Image& image) {
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const Eigen::Vector3d t = -(image.rotation.transpose() * image.position);
   return {q.w(), q.x(), q.y(), q.z(), t[0], t[1], t[2]};
+}
+
+// rig_from_world = sensor_from_rig^-1 * cam_from_world
+inline std::array<double, 7> poseOfRig(const Image& image, const std::vector<double>& sensorFromRig) {
+  const std::vector<double>& s = sensorFromRig;
+  Image mounted, rig;
+  if (!setPoseFromQuaternion(s.data(), {s[4], s[5], s[6]}, mounted).empty()) return colmapPose(image);
+  rig.rotation = image.rotation * mounted.rotation.transpose();
+  rig.position = image.position - rig.rotation * mounted.position;
+  return colmapPose(rig);
 }
 
 }  // namespace sfm

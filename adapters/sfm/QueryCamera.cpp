@@ -52,6 +52,29 @@ QueryCamera::QueryCamera(const Camera& camera, CameraKnowledge knowledge)
   aspect_ = camera.parameters[0] / camera.parameters[first - 1];
 }
 
+bool hasDistortion(CameraModel model) { return model != CameraModel::SimplePinhole && model != CameraModel::Pinhole; }
+
+Camera estimatedCamera(const Camera& camera, double focalLength, double k1) {
+  const QueryCamera given(camera, CameraKnowledge::Unknown);
+  Camera result = camera;
+  const std::size_t focalLengths = focalLengthCount(camera.model);
+  result.parameters.assign(parameterCount(camera.model), 0);
+  result.parameters[0] = focalLength;
+  result.parameters[focalLengths - 1] = focalLength / given.aspect();
+  result.parameters[focalLengths] = given.cx();
+  result.parameters[focalLengths + 1] = given.cy();
+  if (hasDistortion(camera.model)) result.parameters[focalLengths + 2] = k1;
+  return result;
+}
+
+Camera distortedCamera(const Camera& camera, double focalLength, double k1) {
+  const QueryCamera given(camera, CameraKnowledge::Unknown);
+  Camera result = camera;
+  result.model = CameraModel::OpenCV;
+  result.parameters = {focalLength, focalLength / given.aspect(), given.cx(), given.cy(), k1, 0, 0, 0};
+  return result;
+}
+
 std::optional<Eigen::Vector3d> QueryCamera::imagePoint(double x, double y) const {
   constexpr double kSmallestCosine = 0.5;
   if (!isKnown_) return Eigen::Vector3d(x - cx_, aspect_ * (y - cy_), 1);

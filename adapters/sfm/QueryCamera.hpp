@@ -19,11 +19,26 @@ class QueryCamera {
   // and their noise with them: more than 60 degrees off the axis is left out.
   std::optional<Eigen::Vector3d> imagePoint(double x, double y) const;
 
+  // Of a camera that is not known: the principal point, and fx / fy.
+  double cx() const { return cx_; }
+  double cy() const { return cy_; }
+  double aspect() const { return aspect_; }
+
  private:
   const Camera& camera_;
   bool isKnown_;
-  double cx_ = 0, cy_ = 0, aspect_ = 1;  // of a camera that is not known
+  double cx_ = 0, cy_ = 0, aspect_ = 1;
 };
+
+// Of the models that can be estimated: is there a place for k1?
+bool hasDistortion(CameraModel model);
+
+// The camera, of the same model and principal point, with this focal length (fx) and, where it has a place for it, this k1; no other
+// distortion.
+Camera estimatedCamera(const Camera& camera, double focalLength, double k1);
+
+// The same with a model that has a place for k1 in any case.
+Camera distortedCamera(const Camera& camera, double focalLength, double k1);
 
 }  // namespace sfm
 }  // namespace hybridgv

@@ -3,13 +3,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <set>
 
 #include "ByteScanner.hpp"
 #include "ByteWriter.hpp"
 #include "ColmapPose.hpp"
 #include "FileContents.hpp"
+#include "FreeId.hpp"
 #include "ModelLinks.hpp"
 #include "NumberWriter.hpp"
 #include "TextScanner.hpp"
@@ -263,16 +263,6 @@ void readRigFiles(const std::string& folder, const std::string& extension, Mendi
 
 // ------------------------------------------------------------------------------------------------------------ what is written
 
-template <class Things>
-std::uint32_t freeId(const Things& things, std::uint32_t wanted) {
-  std::set<std::uint32_t> taken;
-  for (const auto& thing : things) taken.insert(thing.id);
-  if (taken.count(wanted) == 0) return wanted;
-  for (std::uint32_t id = 1; id < std::numeric_limits<std::uint32_t>::max(); ++id)
-    if (taken.count(id) == 0) return id;
-  return wanted;
-}
-
 // The rigs and frames of the images that are written: COLMAP wants every image in a frame.
 class FramesToWrite {
  public:
@@ -310,7 +300,7 @@ class FramesToWrite {
   void addOwnFrame(const Image& image) {
     const std::uint32_t camera = model_.cameras[image.camera].id;
     Frame frame;
-    frame.id = freeId(frames, image.id);
+    frame.id = freeId(frames.begin(), frames.end(), image.id);
     frame.rigFromWorld = colmapPose(image);
     frame.data = {{{kCamera, camera}, image.id}};
     const SensorRig* rig = nullptr;
@@ -321,20 +311,11 @@ class FramesToWrite {
         if (!sensor.sensorFromRig.empty()) frame.rigFromWorld = poseOfRig(image, sensor.sensorFromRig);
       }
     if (rig == nullptr) {
-      rigs.push_back({freeId(rigs, camera), {{{kCamera, camera}, {}}}});
+      rigs.push_back({freeId(rigs.begin(), rigs.end(), camera), {{{kCamera, camera}, {}}}});
       rig = &rigs.back();
     }
     frame.rigId = rig->id;
     frames.push_back(std::move(frame));
-  }
-
-  // rig_from_world = sensor_from_rig^-1 * cam_from_world
-  static std::array<double, 7> poseOfRig(const Image& image, const std::vector<double>& s) {
-    Image mounted, rig;
-    if (!setPoseFromQuaternion(s.data(), {s[4], s[5], s[6]}, mounted).empty()) return colmapPose(image);
-    rig.rotation = image.rotation * mounted.rotation.transpose();
-    rig.position = image.position - rig.rotation * mounted.position;
-    return colmapPose(rig);
   }
 
   const SparseModel& model_;

@@ -1,0 +1,72 @@
+/// \file
+/// \brief Localizes images that are not in the map: pose, focal length, distortion.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
+#include "hybridgv/adapters/sfm/QueryImage.hpp"
+#include "hybridgv/adapters/sfm/SparseModel.hpp"
+#include "hybridgv/export.hpp"
+#include "hybridgv/sac/HybridRansac.hpp"
+
+namespace hybridgv {
+namespace sfm {
+
+/// How query images are localized.
+struct QueryOptions {
+  LocalizationProblemOptions matches;  ///< how matches become correspondences
+  /// The search. What is known of a camera is set for every query; of the focal length's bounds the narrower ones count.
+  sac::HybridRansacOptions ransac;
+  /// How far a prior focal length may be wrong, as a share of it: three times that on either side is searched first, everything if
+  /// that fails. (EXIF is often wrong by several percent.)
+  double priorDeviation = 0.15;
+  int minInliers = 12;        ///< a success has so many inliers of both kinds together
+  double minInlierShare = 0;  ///< and they are so large a share of the correspondences
+};
+
+/// What one image of the map has to do with a query.
+struct PairReport {
+  std::size_t image = 0;        ///< index into SparseModel::images
+  std::size_t matches = 0;      ///< with the query
+  std::size_t inliers2d2d = 0;  ///< of which became inliers as rays
+  std::size_t inliers2d3d = 0;  ///< or voted for points that are inliers
+};
+
+/// A query image, localized or not.
+struct QueryLocalization {
+  bool success = false;            ///< pose and camera can be relied on
+  std::string reason;              ///< why not, in words; empty on success
+  LocalizationProblem problem;     ///< the correspondences
+  sac::HybridRansacResult result;  ///< pose with covariance, inliers
+  /// The query's camera, of the model that it was given, with what was found: COLMAP's parameters.
+  Camera camera;
+  double k1 = 0;                  ///< distortion found; see distortionIsLost
+  bool distortionIsLost = false;  ///< the camera's model (SIMPLE_PINHOLE, PINHOLE) has no place for k1
+  std::vector<PairReport> pairs;  ///< one for each of QueryImage::matches
+};
+
+/// Localizes one query image.
+///
+/// * Unknown camera: focal length and distortion are found with the pose.
+/// * Prior focal length: the same, searched near to it first.
+/// * Known camera: only the pose is found; `camera` is returned as given.
+///
+/// \throws std::invalid_argument as makeLocalizationProblem() and hybridRansac(), and for options that make no sense
+HYBRIDGV_EXPORT QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query,
+                                                const QueryOptions& options = {});
+
+/// Localizes several query images of **one camera**: each by itself first; then the camera that they have in common, of which each knows
+/// the focal length and the distortion to its own deviation; then each once more with that camera known.
+///
+/// Images that contradict the others' focal length have no say in it. An image that the common camera does not fit keeps its own.
+///
+/// \return one for each query, in their order; all that were localized with the common camera have the same `camera`
+/// \throws std::invalid_argument as localizeQuery(), and if the queries' cameras differ
+HYBRIDGV_EXPORT std::vector<QueryLocalization> localizeQueries(const SparseModel& map, const std::vector<QueryImage>& queries,
+                                                               const QueryOptions& options = {});
+
+}  // namespace sfm
+}  // namespace hybridgv
