@@ -18,10 +18,13 @@ int main() {
     const Vector3d point(uniform(-2, 3), uniform(-2, 2), uniform(4, 9)), y = point - position;
     Vector3d image(focalLength * y[0] / y[2], focalLength * y[1] / y[2], 1);
     if (i % 5 == 0) image = Vector3d(uniform(-400, 400), uniform(-300, 300), 1);
-    if (i < 100)
-      imagePoints2d2d.push_back(image), bearings.push_back(point - offset);
-    else
-      imagePoints2d3d.push_back(image), points.push_back(point);
+    if (i < 100) {
+      imagePoints2d2d.push_back(image);
+      bearings.push_back(point - offset);
+    } else {
+      imagePoints2d3d.push_back(image);
+      points.push_back(point);
+    }
   }
   const hybridgv::NoncentralHybridAdapter adapter(imagePoints2d2d, bearings, std::vector<int>(bearings.size(), 0), {offset},
                                                   {Matrix3d::Identity()}, imagePoints2d3d, points);

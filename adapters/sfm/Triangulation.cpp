@@ -63,7 +63,11 @@ Triangulation triangulate(const std::vector<View>& views) {
     const double nextCost = linearize(views, next, nextJtJ, nextJtr, nextError);
     if (!(nextCost < cost)) break;
     const bool converged = cost - nextCost <= kConverged * cost;
-    result.point = next, cost = nextCost, error = nextError, JtJ = nextJtJ, Jtr = nextJtr;
+    result.point = next;
+    cost = nextCost;
+    error = nextError;
+    JtJ = nextJtJ;
+    Jtr = nextJtr;
     if (converged) break;
   }
   result.isInFront = result.point.allFinite() && std::isfinite(cost);

@@ -22,7 +22,10 @@ class ProgressBar {
     if (!enabled_) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (drawn_ && filled == filled_ && done != count_ && count_ > 10 * kWidth) return;  // nothing that one could see
-    drawn_ = true, filled_ = filled;
+    {
+      drawn_ = true;
+      filled_ = filled;
+    }
     std::fprintf(stderr, "\r[%s%s] %zu/%zu", std::string(filled, '#').c_str(), std::string(kWidth - filled, ' ').c_str(), done,
                  count_);
   }

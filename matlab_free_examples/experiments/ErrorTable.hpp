@@ -20,7 +20,10 @@ inline PoseError errorOfNearest(const hybridgv::FocalPoses& solutions, const hyb
   double nearest = kInfinity;
   for (const hybridgv::FocalPose& pose : solutions) {
     const double distance = hybridgv::test::poseDistance(pose, truth);
-    if (distance < nearest) nearest = distance, error = poseError(pose, truth);
+    if (distance < nearest) {
+      nearest = distance;
+      error = poseError(pose, truth);
+    }
   }
   error.focalPercent = std::abs(error.focalPercent);
   return error;

@@ -83,6 +83,9 @@ inline SyntheticScene makeSyntheticScene(hybridgv::test::Random random, Motion m
     const Vector3d error(random.normal(), random.normal(), random.normal());
     points.push_back(point + noise.pointPercent / 100 * toCamera(query, point)[2] * error);
   }
-  for (const hybridgv::FocalPose& camera : rig) offsets.push_back(camera.position), rotations.push_back(camera.rotation);
+  for (const hybridgv::FocalPose& camera : rig) {
+    offsets.push_back(camera.position);
+    rotations.push_back(camera.rotation);
+  }
   return {query, {imagePoints2d2d, bearings, cameras, offsets, rotations, imagePoints2d3d, points}};
 }

@@ -44,7 +44,8 @@ struct Settings {
 HybridScene makeScene(const Settings& settings, std::uint64_t index, double outlierShare) {
   hybridgv::test::SceneOptions options;
   options.rays = options.points = 200;
-  options.imageNoise = settings.imageNoisePx, options.pointNoise = settings.pointNoise;
+  options.imageNoise = settings.imageNoisePx;
+  options.pointNoise = settings.pointNoise;
   options.outlierShareRays = options.outlierSharePoints = outlierShare;
   hybridgv::test::Random random(settings.options.seed, index);
   return makeHybridScene(random, options);
@@ -52,9 +53,12 @@ HybridScene makeScene(const Settings& settings, std::uint64_t index, double outl
 
 hybridgv::sac::HybridRansacResult estimate(const Settings& settings, const NoncentralHybridAdapter& adapter) {
   hybridgv::sac::HybridRansacOptions options;
-  options.maxReprojectionErrorPx = kMaxReprojectionErrorPx, options.maxEpipolarErrorPx = kMaxEpipolarErrorPx;
-  options.successProbability = kProbability, options.maxIterations = kMaxIterations;
-  options.seed = settings.options.seed, options.threads = settings.options.threads;
+  options.maxReprojectionErrorPx = kMaxReprojectionErrorPx;
+  options.maxEpipolarErrorPx = kMaxEpipolarErrorPx;
+  options.successProbability = kProbability;
+  options.maxIterations = kMaxIterations;
+  options.seed = settings.options.seed;
+  options.threads = settings.options.threads;
   return hybridRansac(adapter, options);
 }
 
@@ -208,7 +212,10 @@ int main(int argc, char** argv) {
   Settings settings;
   addCommonOptions(app, settings.options, "threads of hybridRansac (all else runs on one, OpenGV's EPnP is not made for more)");
   return runExperiment(app, argc, argv, [&] {
-    if (settings.options.quick) settings.solverScenes = 20, settings.loopScenes = 3;
+    if (settings.options.quick) {
+      settings.solverScenes = 20;
+      settings.loopScenes = 3;
+    }
     run(settings);
   });
 }

@@ -88,7 +88,8 @@ Attempt localize(const Query& query, const Settings& settings, const HybridRansa
   const hybridgv::sac::HybridRansacResult result = hybridRansac(problem.adapter, options);  // in this thread
   Attempt attempt;
   attempt.success = result.success;
-  attempt.milliseconds = 1e3 * (threadSeconds() - start), attempt.iterations = result.iterations;
+  attempt.milliseconds = 1e3 * (threadSeconds() - start);
+  attempt.iterations = result.iterations;
   if (!result.success) return attempt;
   attempt.error = poseError(result.pose, *query.problem.reference);
   attempt.error.focalPercent = std::abs(attempt.error.focalPercent);
@@ -102,10 +103,13 @@ void writeRow(CsvFile& csv, const std::string& scene, std::size_t queries, const
   std::vector<double> rotation, position, focal, milliseconds, iterations;
   double success = 0, good = 0;
   for (const Attempt& attempt : attempts) {
-    success += attempt.success, good += attempt.good;
-    rotation.push_back(attempt.error.rotationDeg), position.push_back(attempt.error.position);
+    success += attempt.success;
+    good += attempt.good;
+    rotation.push_back(attempt.error.rotationDeg);
+    position.push_back(attempt.error.position);
     focal.push_back(attempt.error.focalPercent);
-    milliseconds.push_back(attempt.milliseconds), iterations.push_back(attempt.iterations);
+    milliseconds.push_back(attempt.milliseconds);
+    iterations.push_back(attempt.iterations);
   }
   const double share = 100.0 / static_cast<double>(attempts.size());
   csv.row(scene, queries, set.name, optimize ? "yes" : "no", share * success, share * good, median(rotation), median(position),

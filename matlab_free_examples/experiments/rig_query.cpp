@@ -41,7 +41,8 @@ RigScene makeRigScene(hybridgv::test::Random random, int matchesPerCamera) {
   RigScene scene;
   SceneOptions options;
   options.rays = options.points = matchesPerCamera;
-  options.imageNoise = kImageNoisePx, options.pointNoise = kPointNoise;
+  options.imageNoise = kImageNoisePx;
+  options.pointNoise = kPointNoise;
   options.outlierShareRays = options.outlierSharePoints = kOutlierShare;
   scene.firstCamera = makeHybridScene(random, options);
   scene.body = scene.firstCamera.truth;
@@ -91,10 +92,16 @@ FocalPoses gp3pLoop(RigScene& scene, int& iterations) {
 // On the first camera of the query alone, with or without 2D-2D matches.
 FocalPoses hybridLoop(const RigScene& scene, bool useRays, const CommonOptions& common, int& iterations) {
   hybridgv::test::HybridScene camera = scene.firstCamera;
-  if (!useRays) camera.image2d2d.clear(), camera.bearings.clear(), camera.cameras.clear();
+  if (!useRays) {
+    camera.image2d2d.clear();
+    camera.bearings.clear();
+    camera.cameras.clear();
+  }
   hybridgv::sac::HybridRansacOptions options;
   options.maxReprojectionErrorPx = kMaxReprojectionErrorPx;
-  options.successProbability = kProbability, options.seed = common.seed, options.threads = common.threads;
+  options.successProbability = kProbability;
+  options.seed = common.seed;
+  options.threads = common.threads;
   const hybridgv::sac::HybridRansacResult result = hybridRansac(camera.adapter(), options);
   iterations = result.iterations;
   return result.success ? FocalPoses{result.pose} : FocalPoses{};

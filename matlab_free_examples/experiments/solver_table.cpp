@@ -151,7 +151,11 @@ int main(int argc, char** argv) {
   Settings settings;
   addCommonOptions(app, settings.options, "threads that count solutions; times are always taken on one");
   return runExperiment(app, argc, argv, [&] {
-    if (settings.options.quick) settings.problems = 50, settings.timed = 10, settings.repetitions = 3;
+    if (settings.options.quick) {
+      settings.problems = 50;
+      settings.timed = 10;
+      settings.repetitions = 3;
+    }
     run(settings);
   });
 }

@@ -27,7 +27,9 @@ struct Row {
 
 void query(benchmark::State& state, const Row& row) {
   test::SceneOptions sceneOptions;
-  sceneOptions.rays = row.rays, sceneOptions.points = 200, sceneOptions.imageNoise = 2;
+  sceneOptions.rays = row.rays;
+  sceneOptions.points = 200;
+  sceneOptions.imageNoise = 2;
   sceneOptions.outlierSharePoints = row.outliersPercent / 100.;
   sceneOptions.outlierShareRays = row.outlierShareRays < 0 ? sceneOptions.outlierSharePoints : row.outlierShareRays;
   sceneOptions.pointNoise = row.pointNoisePercent / 100 * kPointDepth;

@@ -23,7 +23,8 @@ struct Data {
   }
   static test::HybridScene make(int count) {
     test::SceneOptions options;
-    options.rays = options.points = count, options.imageNoise = 2;
+    options.rays = options.points = count;
+    options.imageNoise = 2;
     options.outlierShareRays = options.outlierSharePoints = 0.5;
     test::Random random(1, 0);
     return test::makeHybridScene(random, options);

@@ -110,13 +110,15 @@ void measure(const Row& row, int count, std::uint64_t seed) {
                                             : row.solve(problem.rays.data(), problem.points.data(), poses.data());
     seconds += std::chrono::duration<double>(Clock::now() - start).count();
     poses.resize(static_cast<std::size_t>(found));
-    solutions += poses.size(), completeSets += complete;
+    solutions += poses.size();
+    completeSets += complete;
     for (std::size_t k = 0; k < poses.size(); ++k) {
       wrong += !(largestResidual(problem, poses[k], row.exactPoints) < 1e-5);
       for (std::size_t j = 0; j < k; ++j) duplicates += poseDistance(poses[k], poses[j]) < 1e-7;
     }
     const double error = distanceToNearest(poses, problem.truth);
-    recovered += error < 1e-6, failures += !(error < 1e-3);
+    recovered += error < 1e-6;
+    failures += !(error < 1e-3);
     logErrors.push_back(std::log10(std::max(error, 1e-16)));
   }
   std::sort(logErrors.begin(), logErrors.end());

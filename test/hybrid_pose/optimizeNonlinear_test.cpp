@@ -19,7 +19,10 @@ using test::SceneOptions;
 
 HybridScene scene(test::Random& random, int rays, int points, double noise, int cameras = 5) {
   SceneOptions options;
-  options.rays = rays, options.points = points, options.imageNoise = noise, options.cameras = cameras;
+  options.rays = rays;
+  options.points = points;
+  options.imageNoise = noise;
+  options.cameras = cameras;
   return test::makeHybridScene(random, options);
 }
 

@@ -58,8 +58,10 @@ TEST(ChanceModel, WrongPosesHaveNoLargerSharesOfInliersOnAverage) {
     const PoseScorer scorer(data.arrays, 6, 60, sac::Scoring::Msac);
     const FocalPose pose = data.arrays.normalization().apply(data.scene.truth);
     const Evaluation evaluation = scorer.evaluate(pose);
-    rays += evaluation.rays / 300., points += evaluation.points / 300.;
-    expectedRays += chance.rayShare(), expectedPoints += chance.pointShare();
+    rays += evaluation.rays / 300.;
+    points += evaluation.points / 300.;
+    expectedRays += chance.rayShare();
+    expectedPoints += chance.pointShare();
   }
   EXPECT_LT(rays, expectedRays);
   EXPECT_LT(points, 1.2 * expectedPoints);

@@ -49,7 +49,9 @@ struct Data {
 
   NoncentralHybridAdapter make(test::Random& random, int rays, int points) {
     test::SceneOptions options;
-    options.rays = rays, options.points = points, options.imageNoise = 2;
+    options.rays = rays;
+    options.points = points;
+    options.imageNoise = 2;
     options.outlierShareRays = options.outlierSharePoints = 0.4;
     scene = test::makeHybridScene(random, options);
     NoncentralHybridAdapter result = scene.adapter();
@@ -112,7 +114,10 @@ TEST(Kernels, ErrorsAreThoseOfTheDefinitionsAtEveryLevel) {
 Score expectedScore(const std::vector<double>& errors, std::size_t begin, std::size_t end, double threshold) {
   Score score;
   for (std::size_t i = begin; i < end; ++i)
-    if (errors[i] < threshold) score.msac += 1 - std::pow(errors[i] / threshold, 2), ++score.inliers;
+    if (errors[i] < threshold) {
+      score.msac += 1 - std::pow(errors[i] / threshold, 2);
+      ++score.inliers;
+    }
   return score;
 }
 

@@ -18,7 +18,9 @@ constexpr KindLoss kUnitNoise{Loss::Quadratic, 1, 1};
 
 test::HybridScene makeScene(test::Random& random, int rays, int points) {
   test::SceneOptions options;
-  options.rays = rays, options.points = points, options.imageNoise = kNoise;
+  options.rays = rays;
+  options.points = points;
+  options.imageNoise = kNoise;
   return test::makeHybridScene(random, options);
 }
 

@@ -18,7 +18,9 @@ struct Data {
         arrays(adapter, correspondences::allIndices(scene.bearings.size()), correspondences::allIndices(scene.points.size())) {}
   NoncentralHybridAdapter make(test::Random& random, int rays, int points, double outliers) {
     test::SceneOptions options;
-    options.rays = rays, options.points = points, options.imageNoise = 2;
+    options.rays = rays;
+    options.points = points;
+    options.imageNoise = 2;
     options.outlierShareRays = options.outlierSharePoints = outliers;
     scene = test::makeHybridScene(random, options);
     return scene.adapter();
@@ -38,7 +40,10 @@ TEST(PoseScorer, ScoreIsTheSumOverBothKindsWithTheirOwnThresholds) {
   int count = 0;
   const auto add = [&](const std::vector<double>& squared, double threshold) {
     for (const double e : squared)
-      if (e < threshold * threshold) expected += 1 - e / (threshold * threshold), ++count;
+      if (e < threshold * threshold) {
+        expected += 1 - e / (threshold * threshold);
+        ++count;
+      }
   };
   add(msac.squaredRayErrors(pose), 5);
   add(msac.squaredPointErrors(pose), 11);

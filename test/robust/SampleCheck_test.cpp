@@ -108,8 +108,16 @@ TEST_F(SampleCheck, RayThroughAPoint) {
 TEST_F(SampleCheck, DoesNotDependOnTheUnits) {
   for (double scale : {1e-6, 1e6}) {
     MinimalProblem scaled = problem_;
-    for (solvers::RayMatch& ray : scaled.rays) ray.centre *= scale, ray.u *= scale, ray.v *= scale;
-    for (solvers::PointMatch& match : scaled.points) match.point *= scale, match.u *= scale, match.v *= scale;
+    for (solvers::RayMatch& ray : scaled.rays) {
+      ray.centre *= scale;
+      ray.u *= scale;
+      ray.v *= scale;
+    }
+    for (solvers::PointMatch& match : scaled.points) {
+      match.point *= scale;
+      match.u *= scale;
+      match.v *= scale;
+    }
     EXPECT_FALSE(isDegenerate(scaled));
     scaled.points[2].point = 3 * scaled.points[0].point - 2 * scaled.points[1].point;
     EXPECT_TRUE(isDegenerate(scaled));

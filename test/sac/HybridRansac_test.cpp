@@ -27,14 +27,17 @@ using test::SceneOptions;
 
 SceneOptions noisy(int rays, int points, double outliers) {
   SceneOptions options;
-  options.rays = rays, options.points = points, options.imageNoise = 1;
+  options.rays = rays;
+  options.points = points;
+  options.imageNoise = 1;
   options.outlierShareRays = options.outlierSharePoints = outliers;
   return options;
 }
 
 HybridRansacOptions thresholds() {
   HybridRansacOptions options;
-  options.maxReprojectionErrorPx = 6, options.maxEpipolarErrorPx = 4;
+  options.maxReprojectionErrorPx = 6;
+  options.maxEpipolarErrorPx = 4;
   return options;
 }
 
@@ -146,7 +149,8 @@ TEST(HybridRansac, OutlierRaysCostNeitherAccuracyNorManySamples) {
     EXPECT_TRUE(hybrid.success && points.success);
     hybridErrors.push_back(std::abs(hybrid.pose.focalLength / scene.truth.focalLength - 1));
     pointErrors.push_back(std::abs(points.pose.focalLength / scene.truth.focalLength - 1));
-    hybridSamples += hybrid.iterations, pointSamples += points.iterations;
+    hybridSamples += hybrid.iterations;
+    pointSamples += points.iterations;
   }
   EXPECT_LT(test::median(hybridErrors), 1.1 * test::median(pointErrors));
   EXPECT_LT(hybridSamples, 1.5 * pointSamples);
@@ -221,7 +225,8 @@ TEST(HybridRansac, AllRaysFromOneCamera) {
 // The relative pose is found, but not the distance: nothing but chance fixes it.
 TEST(HybridRansac, RaysFromOneCameraAndOutlierPointsAreNoSuccess) {
   SceneOptions scene = noisy(150, 100, 0.1);
-  scene.cameras = 1, scene.outlierSharePoints = 1;
+  scene.cameras = 1;
+  scene.outlierSharePoints = 1;
   HybridRansacOptions options = thresholds();
   options.maxIterations = 500;
   EXPECT_EQ(countRight(scene, options, 6, 83), 0);
@@ -262,7 +267,8 @@ TEST(HybridRansac, SceneFarFromTheOriginAndOfAnyScale) {
   SceneOptions options = noisy(100, 100, 0.3);
   test::Random random(test::testSeed(), 87);
   for (const double scale : {1e-3, 1e3}) {
-    options.scale = scale, options.origin = scale * Eigen::Vector3d(5e4, -4e5, 300);
+    options.scale = scale;
+    options.origin = scale * Eigen::Vector3d(5e4, -4e5, 300);
     const HybridScene scene = test::makeHybridScene(random, options);
     const HybridRansacResult result = hybridRansac(scene.adapter(), thresholds());
     EXPECT_TRUE(result.success);
@@ -323,7 +329,9 @@ TEST(HybridRansac, EveryChoiceOfScoringAndOptimizationFindsThePose) {
       for (const bool final : {false, true}) {
         HybridRansacOptions options = thresholds();
         options.minIterations = 300;  // without optimization the best of many samples is wanted
-        options.scoring = scoring, options.localOptimization = local, options.finalOptimization = final;
+        options.scoring = scoring;
+        options.localOptimization = local;
+        options.finalOptimization = final;
         const HybridRansacResult result = hybridRansac(scene.adapter(), options);
         expectSound(result, scene, options);
         EXPECT_TRUE(result.success);
@@ -363,7 +371,8 @@ TEST(HybridRansac, FocalBoundsAreKept) {
   if (result.score > 0) {
     EXPECT_GE(result.pose.focalLength, options.minFocalLength);
   }
-  options.minFocalLength = 0.9 * scene.truth.focalLength, options.maxFocalLength = 1.1 * scene.truth.focalLength;
+  options.minFocalLength = 0.9 * scene.truth.focalLength;
+  options.maxFocalLength = 1.1 * scene.truth.focalLength;
   EXPECT_TRUE(hybridRansac(scene.adapter(), options).success);
 }
 

@@ -29,8 +29,10 @@ Errors errorsOf(const NoncentralHybridAdapter& adapter, const FocalPose& referen
 
 NoncentralHybridAdapter pointsOnly(const NoncentralHybridAdapter& adapter) {
   std::vector<Eigen::Vector3d> imagePoints, points;
-  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d3d(); ++i)
-    imagePoints.push_back(adapter.getImagePoint2d3d(i)), points.push_back(adapter.getPoint(i));
+  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d3d(); ++i) {
+    imagePoints.push_back(adapter.getImagePoint2d3d(i));
+    points.push_back(adapter.getPoint(i));
+  }
   return {{}, {}, {}, {}, {}, imagePoints, points};
 }
 
@@ -77,7 +79,8 @@ class RealModel : public testing::Test {
   // standard deviation is allowed: by as much do medians of ten sets of outliers differ.
   void expectRaysDoNoHarm(const std::string& file) {
     for (const double outlierShare : {0., 0.3, 0.5}) {
-      hybrid.clear(), points2d3d.clear();
+      hybrid.clear();
+      points2d3d.clear();
       localizeAll(file, outlierShare, 10);
       if (IsSkipped()) return;
       const double deviation = quantile(hybrid, 0.5, [](const Errors& e) { return e.focalDeviationPercent; });
@@ -106,7 +109,8 @@ TEST_F(RealModel, KermitGainsFromRaysInNearlyEveryImage) {
 
 TEST_F(RealModel, KermitIsTwiceAsAccurateWithRays) {
   for (const double outlierShare : {0., 0.3, 0.5}) {
-    hybrid.clear(), points2d3d.clear();
+    hybrid.clear();
+    points2d3d.clear();
     localizeAll("kermit/bundle.out", outlierShare, 10);
     if (IsSkipped()) return;
     EXPECT_LT(2 * quantile(hybrid, 0.5), quantile(points2d3d, 0.5)) << outlierShare;

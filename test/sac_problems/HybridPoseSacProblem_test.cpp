@@ -112,7 +112,8 @@ TEST_F(SacProblem, RaysDoNotFitAVanishingFocalLength) {
 
 TEST_F(SacProblem, DistancesAreFinite) {
   FocalPose behind = data_.truth;  // looks away from the scene
-  behind.rotation.col(0) *= -1, behind.rotation.col(2) *= -1;
+  behind.rotation.col(0) *= -1;
+  behind.rotation.col(2) *= -1;
   FocalPose broken;
   broken.position.setConstant(std::numeric_limits<double>::quiet_NaN());
   HybridPoseSacProblem problem = flat(Solver::H13f);

@@ -13,7 +13,8 @@ namespace hybridgv {
 namespace test {
 namespace {
 
-using namespace HYBRIDGV_INSTRUCTION_SET;
+using namespace math;
+using solvers::h51f::H51fSystem;
 using solvers::h51f::KnownSolution;
 using solvers::h51f::KnownSystem;
 using solvers::h51f::Sharing;

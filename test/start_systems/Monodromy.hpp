@@ -12,6 +12,8 @@
 namespace hybridgv {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
+using namespace math;
+
 template <class System>
 using Solutions = std::vector<Point<double, System::kUnknowns>>;
 

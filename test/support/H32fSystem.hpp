@@ -21,7 +21,7 @@
 namespace hybridgv {
 namespace test {
 
-using namespace HYBRIDGV_INSTRUCTION_SET;
+using namespace math;
 
 // A complex number and its derivatives with respect to x, y, log d and t.
 template <class V>

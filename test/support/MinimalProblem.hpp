@@ -86,12 +86,16 @@ inline NoncentralHybridAdapter makeAdapter(const MinimalProblem& problem) {
   std::vector<Eigen::Vector3d> image2d2d, bearings, image2d3d, points, offsets;
   std::vector<int> cameras;
   for (const solvers::RayMatch& ray : problem.rays) {
-    image2d2d.emplace_back(ray.u, ray.v, 1), bearings.push_back(ray.direction), cameras.push_back(ray.camera);
+    image2d2d.emplace_back(ray.u, ray.v, 1);
+    bearings.push_back(ray.direction);
+    cameras.push_back(ray.camera);
     offsets.resize(std::max(offsets.size(), static_cast<std::size_t>(ray.camera) + 1), Eigen::Vector3d::Zero());
     offsets[static_cast<std::size_t>(ray.camera)] = ray.centre;
   }
-  for (const solvers::PointMatch& match : problem.points)
-    image2d3d.emplace_back(match.u, match.v, 1), points.push_back(match.point);
+  for (const solvers::PointMatch& match : problem.points) {
+    image2d3d.emplace_back(match.u, match.v, 1);
+    points.push_back(match.point);
+  }
   const std::vector<Eigen::Matrix3d> rotations(offsets.size(), Eigen::Matrix3d::Identity());
   return {image2d2d, bearings, cameras, offsets, rotations, image2d3d, points};
 }
@@ -117,7 +121,8 @@ inline double rayResidual(const FocalPose& pose, const solvers::RayMatch& ray) {
   const double beta = -p.cross(b).dot(n) / n.squaredNorm();
   if (n.squaredNorm() > 0 && (!(beta > 0) || !((b + beta * a)[2] > 0))) return kViolated;
   Eigen::Vector3d first = b, second = a;
-  first.head<2>() *= pose.focalLength, second.head<2>() *= pose.focalLength;
+  first.head<2>() *= pose.focalLength;
+  second.head<2>() *= pose.focalLength;
   const Eigen::Vector3d line = first.cross(second);
   return std::abs(line.dot(Eigen::Vector3d(ray.u, ray.v, 1))) / line.head<2>().norm();
 }

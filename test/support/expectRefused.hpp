@@ -28,10 +28,5 @@ inline void expectRefused(const std::string& argument, const std::function<void(
   expectRefused("wrong " + argument, argument, call);
 }
 
-// The former order of the arguments.
-inline void expectRefused(const std::string& wrong, const std::function<void()>& call, const std::string& argument) {
-  expectRefused(wrong, argument, call);
-}
-
 }  // namespace test
 }  // namespace hybridgv

@@ -25,7 +25,8 @@
 #include "math/homotopy/PathTracker.hpp"
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 template <int N>
 Complex<double> component(const Point<double, N>& point, int k) {
@@ -33,8 +34,8 @@ Complex<double> component(const Point<double, N>& point, int k) {
 }
 
 template <int Degree>
-math::Polynomial<float, Degree> narrowed(const math::Polynomial<double, Degree>& polynomial) {
-  math::Polynomial<float, Degree> result;
+Polynomial<float, Degree> narrowed(const Polynomial<double, Degree>& polynomial) {
+  Polynomial<float, Degree> result;
   for (int k = 0; k <= Degree; ++k) {
     result.re[k] = static_cast<float>(polynomial.re[k]);
     result.im[k] = static_cast<float>(polynomial.im[k]);
@@ -71,7 +72,7 @@ class PathSolver {
     sortOut();
     if (countOf(State::Bad) + countOf(State::AtInfinity) > kHopeless * paths_) return;
     int spent = 0;
-    for (int round = 0; round < math::kMaxRounds && countOf(State::Bad) > 0 && spent < math::kMaxStepsPerRound; ++round)
+    for (int round = 0; round < kMaxRounds && countOf(State::Bad) > 0 && spent < kMaxStepsPerRound; ++round)
       spent += secondPass(round);
     ends->steps += spent;
     if (polishFailed()) sortOut();
@@ -79,7 +80,7 @@ class PathSolver {
   }
 
  private:
-  static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, math::kMaxStepsFirstPass};
+  static constexpr TrackingOptions kFirstPass{2.5e-2, 0.15, 1e-2, 0.08, 0.3, 1e-6, kMaxStepsFirstPass};
   static constexpr double kHopeless = 0.8;  // share of bad paths that only degenerate data have
   static constexpr double kHuge = 1e5;      // size of the unknowns or their reciprocals that counts as infinite
   // In single precision: the last Newton step, how close to real a solution is that may be real, and so on.
@@ -237,7 +238,7 @@ class PathSolver {
   static TrackingOptions carefulOptions(int round, int paths) {
     constexpr double kTolerances[] = {4e-3, 4e-4, 4e-5};
     const double tolerance = kTolerances[round < 2 ? round : 2];
-    const int share = math::kMaxStepsPerRound / paths;
+    const int share = kMaxStepsPerRound / paths;
     TrackingOptions options;
     options.tolerance = tolerance;
     options.acceptFirst = 5 * tolerance;
@@ -245,7 +246,7 @@ class PathSolver {
     options.firstStep = 0.02;
     options.largestStep = 0.2;
     options.smallestStep = 1e-12;
-    options.attempts = share < math::kMaxStepsSecondPass ? share : math::kMaxStepsSecondPass;
+    options.attempts = share < kMaxStepsSecondPass ? share : kMaxStepsSecondPass;
     return options;
   }
 
@@ -318,4 +319,5 @@ class PathSolver {
 };
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
 }  // namespace hybridgv

@@ -286,9 +286,3 @@ void newtonSteps(const Homotopy& homotopy, Real<V> t, Point<Real<V>, System::kUn
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace math
 }  // namespace hybridgv
-
-namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
-using namespace math;
-}
-}  // namespace hybridgv

@@ -316,10 +316,12 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
   Pair b[D + 1][kPairs], sum[kEven][kPairs], difference[kOdd][kPairs];
   for (int k = 0; k < kPairs; ++k) {
     const double* center = q + kSamples + 2 * k;
-    b[0][k] = load<Pair>(center), b[D][k] = load<Pair>(center + 1);
+    b[0][k] = load<Pair>(center);
+    b[D][k] = load<Pair>(center + 1);
     for (int m = 0; m < kOdd; ++m) {
       const Pair before = load<Pair>(center - m), after = load<Pair>(center + 1 + m);
-      sum[m][k] = before + after, difference[m][k] = before - after;
+      sum[m][k] = before + after;
+      difference[m][k] = before - after;
     }
     if (kEven > kOdd) sum[kEven - 1][k] = load<Pair>(center + 1 + kOdd);
   }
@@ -329,13 +331,20 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
       for (int k = 0; k < kPairs; ++k) symmetric[k] += tables.even[i - 1][m] * sum[m][k];
     for (int m = 0; m < kOdd; ++m)
       for (int k = 0; k < kPairs; ++k) antisymmetric[k] += tables.odd[i - 1][m] * difference[m][k];
-    for (int k = 0; k < kPairs; ++k) b[i][k] = symmetric[k] + antisymmetric[k], b[D - i][k] = symmetric[k] - antisymmetric[k];
+    for (int k = 0; k < kPairs; ++k) {
+      b[i][k] = symmetric[k] + antisymmetric[k];
+      b[D - i][k] = symmetric[k] - antisymmetric[k];
+    }
   }
   double low[kPadded], high[kPadded];
   for (int k = 0; k < kPairs; ++k) {
     Pair least = b[0][k], greatest = b[0][k];
-    for (int i = 1; i <= D; ++i) least = smaller(least, b[i][k]), greatest = larger(greatest, b[i][k]);
-    store(low + 2 * k, least), store(high + 2 * k, greatest);
+    for (int i = 1; i <= D; ++i) {
+      least = smaller(least, b[i][k]);
+      greatest = larger(greatest, b[i][k]);
+    }
+    store(low + 2 * k, least);
+    store(high + 2 * k, greatest);
   }
 
   for (int j = 0; j < arcCount; ++j) {
@@ -471,10 +480,17 @@ void BinaryFormRoots<D>::SimpleRoots::refine() {
     for (int k = 0; k <= D; ++k) coefficients_[k][lane] = coefficients_[k][0];
   }
   Pair t[kPairs], low[kPairs], high[kPairs];
-  for (int j = 0; j < kPairs; ++j) t[j] = load<Pair>(&start_[2 * j]), low[j] = Pair{0, 0}, high[j] = Pair{1, 1};
+  for (int j = 0; j < kPairs; ++j) {
+    t[j] = load<Pair>(&start_[2 * j]);
+    low[j] = Pair{0, 0};
+    high[j] = Pair{1, 1};
+  }
   for (int iteration = 0; iteration < 60; ++iteration) {
     Pair value[kPairs], slope[kPairs], curvature[kPairs], step{0, 0};  // curvature: half the second derivative
-    for (int j = 0; j < kPairs; ++j) value[j] = load<Pair>(coefficients_[D] + 2 * j), slope[j] = curvature[j] = Pair{0, 0};
+    for (int j = 0; j < kPairs; ++j) {
+      value[j] = load<Pair>(coefficients_[D] + 2 * j);
+      slope[j] = curvature[j] = Pair{0, 0};
+    }
     for (int k = D - 1; k >= 0; --k)
       for (int j = 0; j < kPairs; ++j) {
         curvature[j] = curvature[j] * t[j] + slope[j];

@@ -25,7 +25,8 @@ HYBRIDGV_INLINE void dixonMatrixAt(const Forms& f, Doubles e, Doubles (&m)[8][8]
       const Doubles a = s * (f.a[b][0][j] + e * f.a[b][1][j] + e2 * f.a[b][2][j]);
       const Doubles k = f.k[b][0][j] + ew * f.k[b][1][j] + e2 * f.k[b][2][j];
       middle[j] = 2 * s * (f.b[b][0][j] + e * f.b[b][1][j] + e2 * f.b[b][2][j]);
-      plus[j] = k + a, minus[j] = k - a;
+      plus[j] = k + a;
+      minus[j] = k - a;
     }
     p[0][b] = {plus[0], plus[1], plus[2]};
     p[1][b] = {middle[0], middle[1], middle[2]};
@@ -63,7 +64,8 @@ static void bernsteinCoefficients(const SampleTables& tables, const double* samp
       Doubles low = load<Doubles>(&pieces.b[side][0][j]), high = low;
       for (int i = 1; i <= kDegree; ++i) {
         const Doubles b = load<Doubles>(&pieces.b[side][i][j]);
-        low = smaller(b, low), high = larger(b, high);
+        low = smaller(b, low);
+        high = larger(b, high);
       }
       store(&pieces.low[side][j], low);
       store(&pieces.high[side][j], high);
@@ -78,9 +80,13 @@ static void simpleRoots(const PowerForms& forms, int count, double* roots) {
     for (int i = 0; i <= kDegree; ++i) atOne += load<Doubles>(&forms.c[i][j]);
     for (int iteration = 0; iteration < 40; ++iteration) {
       Doubles value = load<Doubles>(&forms.c[kDegree][j]), slope{};
-      for (int i = kDegree - 1; i >= 0; --i) slope = slope * t + value, value = value * t + load<Doubles>(&forms.c[i][j]);
+      for (int i = kDegree - 1; i >= 0; --i) {
+        slope = slope * t + value;
+        value = value * t + load<Doubles>(&forms.c[i][j]);
+      }
       const DoubleMask above = value * atOne > 0;
-      high = select<Doubles>(above, t, high), low = select<Doubles>(above, low, t);
+      high = select<Doubles>(above, t, high);
+      low = select<Doubles>(above, low, t);
       const Doubles next = t - value / slope;
       const Doubles inside = select<Doubles>((next >= low) & (next <= high), next, (low + high) / 2);
       const Doubles step = absolute(inside - t);
@@ -108,7 +114,8 @@ static void polishRoots(const Forms& forms, int count, double* roots) {
       // neither far away nor beyond +-1; where the values are equal there is nothing left to gain
       const Doubles limit = smaller(broadcast<Doubles>(kLongestStep), (1 - absolute(e)) / 2);
       step = select<Doubles>(value == lastValue, Doubles{}, smaller(larger(step, -limit), limit));
-      last = e, lastValue = value;
+      last = e;
+      lastValue = value;
       e += step;
       if (!any(absolute(step) > kShortestStep)) break;
     }
@@ -187,18 +194,23 @@ static void newton(const Forms& forms, int count, Candidates& candidates) {
       const Doubles depth = 1 + absolute(d);
       size = larger(larger(absolute(de), absolute(dpsi)), absolute(dd) / depth);
       const Doubles shorten = select<Doubles>(size > kLongestStep, kLongestStep / size, broadcast<Doubles>(1));
-      de *= shorten, dd *= shorten, dpsi *= shorten;
+      de *= shorten;
+      dd *= shorten;
+      dpsi *= shorten;
       // |e| < 1: go at most halfway to the bound
       const Doubles below = (-1 - e) / 2, above = (1 - e) / 2;
       e += smaller(larger(de, below), above);
       d += dd;
       const Doubles turnedC = c - s * dpsi, turnedS = s + c * dpsi;
       const Doubles length = 1 / squareRoot(turnedC * turnedC + turnedS * turnedS);
-      c = turnedC * length, s = turnedS * length;
+      c = turnedC * length;
+      s = turnedS * length;
       if (!any(size > kConverged)) break;
     }
-    store(candidates.e + i, e), store(candidates.d + i, d);
-    store(candidates.cosPsi + i, c), store(candidates.sinPsi + i, s);
+    store(candidates.e + i, e);
+    store(candidates.d + i, d);
+    store(candidates.cosPsi + i, c);
+    store(candidates.sinPsi + i, s);
     store(candidates.step + i, size);
   }
 }

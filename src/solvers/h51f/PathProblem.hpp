@@ -6,9 +6,13 @@
 #include "solvers/h51f/System.hpp"
 
 namespace hybridgv {
+namespace solvers {
+namespace h51f {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-inline solvers::h51f::VectorHomotopy<float> narrowed(const solvers::h51f::VectorHomotopy<double>& vector) {
+using namespace math;
+
+inline VectorHomotopy<float> narrowed(const VectorHomotopy<double>& vector) {
   return {narrowed(vector.plus), narrowed(vector.minus), narrowed(vector.third)};
 }
 
@@ -17,18 +21,18 @@ class H51fPathProblem {
  public:
   using System = H51fSystem;
   using Solution = Point<double, System::kUnknowns>;
-  static constexpr int kMaxPaths = solvers::h51f::kMaxPaths;
+  static constexpr int kMaxPaths = h51f::kMaxPaths;
 
-  H51fPathProblem(const solvers::h51f::StartSystem& start, const solvers::h51f::Parameters& target)
+  H51fPathProblem(const StartSystem& start, const Parameters& target)
       : start_(start),
         target_(target),
         pointImage_(scalar(target.pointImage)),
         pointImageBar_(scalar(target.pointImageBar)),
-        mayMeetSharedCentre_(start.sharing != solvers::h51f::Sharing::AtMostTwo) {}
+        mayMeetSharedCentre_(start.sharing != Sharing::AtMostTwo) {}
 
   int paths() const { return start_.paths; }
   const Point<float, System::kUnknowns>* starts() const { return start_.solutions; }
-  System::Homotopy<double> homotopy() const { return solvers::h51f::straightHomotopy(start_.parameters, target_); }
+  System::Homotopy<double> homotopy() const { return straightHomotopy(start_.parameters, target_); }
 
   static System::Homotopy<float> singlePrecision(const System::Homotopy<double>& from) {
     System::Homotopy<float> to;
@@ -47,7 +51,7 @@ class H51fPathProblem {
   // An image point at the principal point moves solutions to infinity.
   bool hasInfiniteSolutions() const {
     bool has = norm(pointImage_) < kCentral;
-    for (const solvers::h51f::ComplexNumber& image : target_.image) has = has || norm(scalar(image)) < kCentral;
+    for (const ComplexNumber& image : target_.image) has = has || norm(scalar(image)) < kCentral;
     return has;
   }
 
@@ -67,7 +71,7 @@ class H51fPathProblem {
     const Scalar x = component(solution, System::X), y = component(solution, System::Y), xy = x * y, one{1, 0};
     const Scalar alpha = component(solution, System::Alpha), beta = component(solution, System::Beta);
     const Scalar d = component(solution, System::D), scale = reciprocal(one + xy);
-    const double c = solvers::h51f::kSharedCentre;
+    const double c = kSharedCentre;
     return norm(c * ((one - xy) * scale) + d) < tolerance &&
            norm(pointImage_ * d - 2 * c * (x * scale * reciprocal(beta))) < tolerance &&
            norm(pointImageBar_ * d - 2 * c * (y * scale * reciprocal(alpha))) < tolerance;
@@ -80,14 +84,16 @@ class H51fPathProblem {
   using Scalar = Complex<double>;
   static constexpr double kCentral = 1e-7;  // distance from the principal point; 1/4 is the mean
 
-  static Scalar scalar(const solvers::h51f::ComplexNumber& a) { return {a.re, a.im}; }
+  static Scalar scalar(const ComplexNumber& a) { return {a.re, a.im}; }
   static double norm(const Scalar& a) { return __builtin_sqrt(squaredNorm(a)); }
 
-  const solvers::h51f::StartSystem& start_;
-  const solvers::h51f::Parameters& target_;
+  const StartSystem& start_;
+  const Parameters& target_;
   const Scalar pointImage_, pointImageBar_;
   const bool mayMeetSharedCentre_;
 };
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

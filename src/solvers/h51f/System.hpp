@@ -21,11 +21,15 @@
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {
+namespace solvers {
+namespace h51f {
 namespace HYBRIDGV_INSTRUCTION_SET {
+
+using namespace math;
 
 // Values and derivatives of the coefficients at t.
 template <class V, int Degree>
-HYBRIDGV_INLINE Complex<V> valueAt(const math::Polynomial<Real<V>, Degree>& p, V t) {
+HYBRIDGV_INLINE Complex<V> valueAt(const Polynomial<Real<V>, Degree>& p, V t) {
   V re = t * p.re[Degree] + p.re[Degree - 1], im = t * p.im[Degree] + p.im[Degree - 1];
   for (int k = Degree - 2; k >= 0; --k) {
     re = re * t + p.re[k];
@@ -34,23 +38,23 @@ HYBRIDGV_INLINE Complex<V> valueAt(const math::Polynomial<Real<V>, Degree>& p, V
   return {re, im};
 }
 template <class V>
-HYBRIDGV_INLINE Complex<V> derivativeAt(const math::Polynomial<Real<V>, 2>& p, V t) {
+HYBRIDGV_INLINE Complex<V> derivativeAt(const Polynomial<Real<V>, 2>& p, V t) {
   const V twiceT = t + t;
   return {twiceT * p.re[2] + p.re[1], twiceT * p.im[2] + p.im[1]};
 }
 template <class V>
-HYBRIDGV_INLINE Complex<V> derivativeAt(const math::Polynomial<Real<V>, 1>& p, V) {
+HYBRIDGV_INLINE Complex<V> derivativeAt(const Polynomial<Real<V>, 1>& p, V) {
   return {broadcast<V>(p.re[1]), broadcast<V>(p.im[1])};
 }
 
 struct H51fSystem {
-  static constexpr int kUnknowns = solvers::h51f::kUnknowns, kAbsolute = 2, kRays = solvers::h51f::kRays;
+  static constexpr int kUnknowns = h51f::kUnknowns, kAbsolute = 2, kRays = h51f::kRays;
   enum Unknown { X, Y, Alpha, Beta, D, F, Ft };
 
   template <class Scalar>
-  using Homotopy = solvers::h51f::Homotopy<Scalar>;
+  using Homotopy = h51f::Homotopy<Scalar>;
   template <class Scalar>
-  using VectorHomotopy = solvers::h51f::VectorHomotopy<Scalar>;
+  using VectorHomotopy = h51f::VectorHomotopy<Scalar>;
 
   // The data of the equations at some t.
   template <class V>
@@ -75,7 +79,7 @@ struct H51fSystem {
   static HYBRIDGV_INLINE void dataAt(const Homotopy<Real<V>>& homotopy, V t, Data<V>& data) {
     const Complex<V> pointImage = valueAt(homotopy.pointImage, t), pointImageBar = valueAt(homotopy.pointImageBar, t);
     for (int j = 0; j < kRays; ++j) {
-      const solvers::h51f::RayHomotopy<Real<V>>& from = homotopy.ray[j];
+      const RayHomotopy<Real<V>>& from = homotopy.ray[j];
       Ray<V>& to = data.ray[j];
       to.direction = vectorAt(from.direction, t);
       to.moment = vectorAt(from.moment, t);
@@ -157,7 +161,7 @@ struct H51fSystem {
   }
 
   template <class V>
-  static HYBRIDGV_INLINE Complex<V> slope(const math::Polynomial<Real<V>, 1>& p) {
+  static HYBRIDGV_INLINE Complex<V> slope(const Polynomial<Real<V>, 1>& p) {
     return {broadcast<V>(p.re[1]), broadcast<V>(p.im[1])};
   }
   template <class V>
@@ -167,4 +171,6 @@ struct H51fSystem {
 };
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace h51f
+}  // namespace solvers
 }  // namespace hybridgv

@@ -10,8 +10,7 @@ namespace h51f {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
 static void solvePaths(const StartSystem& start, const Parameters& target, EndPoints* ends) {
-  using Solver = hybridgv::HYBRIDGV_INSTRUCTION_SET::PathSolver<hybridgv::HYBRIDGV_INSTRUCTION_SET::H51fPathProblem>;
-  Solver({start, target}).solve(ends);
+  PathSolver<H51fPathProblem>({start, target}).solve(ends);
 }
 
 extern const SolvePaths kSolvePaths;

@@ -144,7 +144,10 @@ TEST(LocalizationProblem, QueryDoesNotInfluenceItsOwnMap) {
   const std::size_t query = 1;
   const LocalizationProblem before = makeLocalizationProblem(model, query);
   SparseModel moved = model;
-  for (Observation& o : moved.images[query].observations) o.x += 5, o.y -= 3;
+  for (Observation& o : moved.images[query].observations) {
+    o.x += 5;
+    o.y -= 3;
+  }
   moved.images[query].position += Vector3d(1, 2, 3);
   for (Point& point : moved.points) point.position.setZero();  // the model's own triangulation used the query
   const LocalizationProblem after = makeLocalizationProblem(moved, query);

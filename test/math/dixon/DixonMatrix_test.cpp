@@ -74,7 +74,9 @@ TEST(DixonMatrix, HasTheCommonRootAsItsNullVector) {
     Polynomials f(random);
     const double tau = random.uniform(-2, 2), delta = random.uniform(-2, 2);
     const Eigen::Vector3d value = f(tau, delta);
-    f.c[0][0].x -= value[0], f.c[0][0].y -= value[1], f.c[0][0].z -= value[2];
+    f.c[0][0].x -= value[0];
+    f.c[0][0].y -= value[1];
+    f.c[0][0].z -= value[2];
     const Eigen::Matrix<double, 8, 8> m = f.matrix();
     const Eigen::Matrix<double, 8, 1> v = columnMonomials(tau, delta);
     EXPECT_LT((m * v).norm(), 1e-13 * m.norm() * v.norm()) << "instance " << i;

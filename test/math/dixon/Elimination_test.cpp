@@ -51,7 +51,9 @@ TEST(Elimination, FindsTheNullVectorOfASingularMatrix) {
     Matrix8 matrices[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       matrices[lane] = randomMatrix(random);
-      matrices[lane].col(lane) = matrices[lane].rightCols<6>() * Eigen::Matrix<double, 6, 1>::LinSpaced(-1, 1);
+      matrices[lane].col(lane) = matrices[lane].rightCols<6>() * Eigen::Matrix < double;
+      6;
+      1 > ::LinSpaced(-1, 1);
       setLane(matrices[lane], lane, m);
     }
     math::eliminate(m);

@@ -9,7 +9,7 @@ namespace hybridgv {
 namespace test {
 namespace {
 
-using namespace HYBRIDGV_INSTRUCTION_SET;
+using namespace math;
 
 // Paths that stay where they start, at (k + 1) / 64 for path k: the only equation is satisfied everywhere. But below a limit
 // Newton's steps are 1e-7 for ever, as near a double solution, where they become neither larger than 1e-6 nor smaller than 1e-8.

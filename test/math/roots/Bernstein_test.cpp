@@ -27,7 +27,8 @@ math::SignChanges signChangesByEnumeration(const double (&b)[kDegree + 1], doubl
     if (!possible) continue;
     int count = 0;
     for (int i = 1; i <= kDegree; ++i) count += positive[i] != positive[i - 1];
-    changes.least = std::min(changes.least, count), changes.most = std::max(changes.most, count);
+    changes.least = std::min(changes.least, count);
+    changes.most = std::max(changes.most, count);
   }
   return changes;
 }

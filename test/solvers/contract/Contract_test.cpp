@@ -140,7 +140,10 @@ TEST_P(Contract, SimilarityOfTheRigsFrameMovesThePosition) {
       Change change;
       change.ofExtent = scale;
       change.ofProblem = [=](MinimalProblem& problem) {
-        for (solvers::RayMatch& ray : problem.rays) ray.centre = move(ray.centre), ray.direction = turn * ray.direction;
+        for (solvers::RayMatch& ray : problem.rays) {
+          ray.centre = move(ray.centre);
+          ray.direction = turn * ray.direction;
+        }
         for (solvers::PointMatch& match : problem.points) match.point = move(match.point);
       };
       change.ofPose = [=](const FocalPose& pose) {
@@ -183,7 +186,8 @@ TEST_P(Contract, RotationAboutTheOpticalAxisRotatesTheQuery) {
     change.ofProblem = [c, s](MinimalProblem& problem) {
       forAllImagePoints(problem, [c, s](double& u, double& v) {
         const double turned = c * u - s * v;
-        v = s * u + c * v, u = turned;
+        v = s * u + c * v;
+        u = turned;
       });
     };
     change.ofPose = [c, s](const FocalPose& pose) {

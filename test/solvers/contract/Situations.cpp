@@ -12,8 +12,16 @@ static void keepProblem(MinimalProblem&, Random&) {}
 
 // An image coordinate times `image`, a length times `length`.
 static void rescale(MinimalProblem& problem, double image, double length) {
-  for (solvers::RayMatch& ray : problem.rays) ray.u *= image, ray.v *= image, ray.centre *= length;
-  for (solvers::PointMatch& match : problem.points) match.u *= image, match.v *= image, match.point *= length;
+  for (solvers::RayMatch& ray : problem.rays) {
+    ray.u *= image;
+    ray.v *= image;
+    ray.centre *= length;
+  }
+  for (solvers::PointMatch& match : problem.points) {
+    match.u *= image;
+    match.v *= image;
+    match.point *= length;
+  }
   problem.truth.focalLength *= image;
   problem.truth.position *= length;
 }
@@ -66,12 +74,19 @@ static std::vector<Situation> makeSituations() {
     scene.point(1) = scene.query.position + random.uniform(1.1, 1.3) * (scene.point(0) - scene.query.position);
   });
   addProblem("image_points_of_two_points_coincide", "000 vvv ...... ..", [](MinimalProblem& problem, Random&) {
-    problem.points[1].u = problem.points[0].u, problem.points[1].v = problem.points[0].v;
+    problem.points[1].u = problem.points[0].u;
+    problem.points[1].v = problem.points[0].v;
   });
   addProblem("all_image_points_coincide", "000 000 000000 00", [](MinimalProblem& problem, Random& random) {
     const double u = random.uniform(-500, 500), v = random.uniform(-500, 500);
-    for (solvers::RayMatch& ray : problem.rays) ray.u = u, ray.v = v;
-    for (solvers::PointMatch& match : problem.points) match.u = u, match.v = v;
+    for (solvers::RayMatch& ray : problem.rays) {
+      ray.u = u;
+      ray.v = v;
+    }
+    for (solvers::PointMatch& match : problem.points) {
+      match.u = u;
+      match.v = v;
+    }
   });
   addProblem("all_image_points_at_the_principal_point", "000 000 000000 00",
              [](MinimalProblem& problem, Random&) { rescale(problem, 0, 1); });
@@ -165,7 +180,8 @@ static std::vector<Situation> makeSituations() {
   list.back().changeProblem = [](MinimalProblem& problem, Random&) {
     double& u = problem.rays.empty() ? problem.points[0].u : problem.rays[0].u;
     double& v = problem.rays.empty() ? problem.points[0].v : problem.rays[0].v;
-    u = 1e-310, v = -std::numeric_limits<double>::denorm_min();
+    u = 1e-310;
+    v = -std::numeric_limits<double>::denorm_min();
   };
   addProblem("everything_zero", "000 000 000000 00", [](MinimalProblem& problem, Random&) { rescale(problem, 0, 0); });
   return list;

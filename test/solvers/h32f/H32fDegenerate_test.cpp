@@ -108,7 +108,10 @@ TEST(H32f, ReturnsOnlySolutionsOfRandomDataWithoutATruth) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Random random(testSeed(), i);
     MinimalProblem problem = makeMinimalProblem(random, i % 2 ? std::vector<int>{1, 1, 1} : std::vector<int>{3}, 2);
-    for (auto& ray : problem.rays) ray.u = random.uniform(-500, 500), ray.v = random.uniform(-500, 500);
+    for (auto& ray : problem.rays) {
+      ray.u = random.uniform(-500, 500);
+      ray.v = random.uniform(-500, 500);
+    }
     for (const FocalPose& pose : solve(problem)) EXPECT_LT(largestResidual(problem, pose, 2), 1e-5) << "problem " << i;
   }
 }

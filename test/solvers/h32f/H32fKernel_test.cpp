@@ -67,7 +67,8 @@ TEST(H32fKernel, PiecesAreTheSampledFunction) {
       double positive = 0, negative = 0;
       for (int k = 0; k <= kDegree; ++k) {
         const double basis = tables.binomial[k] * std::pow(x, k) * std::pow(1 - x, kDegree - k);
-        positive += basis * pieces.b[0][k][j], negative += basis * pieces.b[1][k][j];
+        positive += basis * pieces.b[0][k][j];
+        negative += basis * pieces.b[1][k][j];
       }
       const double tolerance = (j == kPieces - 1 ? 1e-12 : 1e-13) * largest;
       EXPECT_NEAR(positive, rationalFunction(e, zeros), tolerance) << "piece " << j;

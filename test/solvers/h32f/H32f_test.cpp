@@ -96,8 +96,14 @@ TEST_P(H32f, ImageScaleChangesOnlyTheFocalLength) {
     const FocalPoses poses = solve(problem);
     for (const double scale : {0.1, 10.0, 1000.0}) {
       MinimalProblem scaled = problem;
-      for (auto& ray : scaled.rays) ray.u *= scale, ray.v *= scale;
-      for (auto& match : scaled.points) match.u *= scale, match.v *= scale;
+      for (auto& ray : scaled.rays) {
+        ray.u *= scale;
+        ray.v *= scale;
+      }
+      for (auto& match : scaled.points) {
+        match.u *= scale;
+        match.v *= scale;
+      }
       expectEquivalent(
           poses, solve(scaled),
           [&](FocalPose pose) {
@@ -119,11 +125,15 @@ TEST_P(H32f, SimilarityOfTheRigFrameChangesOnlyTheUnits) {
     for (const double scale : {1e-3, 1.0, 1e3}) {
       const auto move = [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(scale * (rotation * x + shift)); };
       MinimalProblem moved = problem;
-      for (auto& ray : moved.rays) ray.centre = move(ray.centre), ray.direction = rotation * ray.direction;
+      for (auto& ray : moved.rays) {
+        ray.centre = move(ray.centre);
+        ray.direction = rotation * ray.direction;
+      }
       for (auto& match : moved.points) match.point = move(match.point);
       const FocalPoses movedPoses = solve(moved);
       const auto change = [&](FocalPose pose) {
-        pose.rotation = rotation * pose.rotation, pose.position = move(pose.position);
+        pose.rotation = rotation * pose.rotation;
+        pose.position = move(pose.position);
         return pose;
       };
       expectEquivalent(poses, movedPoses, change, i);

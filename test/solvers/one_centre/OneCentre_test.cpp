@@ -81,7 +81,9 @@ class MultiStart {
   }
   // True if it converged; R: calibrated camera -> query, t: its centre in the query's frame up to scale.
   bool run(Random& random, Eigen::Matrix3d& rotation, Eigen::Vector3d& t, double& f) const {
-    rotation = random.rotation(), t = random.direction(), f = std::exp(random.uniform(-2, 2));
+    rotation = random.rotation();
+    t = random.direction();
+    f = std::exp(random.uniform(-2, 2));
     for (int iteration = 0; iteration < 40; ++iteration) {
       const Vector6 r = residuals(rotation, t, f);
       Eigen::Matrix<double, 6, 6> jacobian;
@@ -199,8 +201,14 @@ TEST_P(OneCentre, ImageScaleOnlyScalesTheFocalLength) {
       Random random(testSeed() + 4, i);
       const MinimalProblem problem = scene(random).problem();
       MinimalProblem scaled = problem;
-      for (solvers::RayMatch& ray : scaled.rays) ray.u *= scale, ray.v *= scale;
-      for (solvers::PointMatch& match : scaled.points) match.u *= scale, match.v *= scale;
+      for (solvers::RayMatch& ray : scaled.rays) {
+        ray.u *= scale;
+        ray.v *= scale;
+      }
+      for (solvers::PointMatch& match : scaled.points) {
+        match.u *= scale;
+        match.v *= scale;
+      }
       FocalPoses expected = solveOneCentre(problem);
       for (FocalPose& pose : expected) pose.focalLength *= scale;
       expectSame(expected, solveOneCentre(scaled), i);
@@ -216,7 +224,10 @@ TEST_P(OneCentre, SimilarityOfTheRigMovesThePosesAlong) {
       const Eigen::Vector3d shift = scale * random.vector(-100, 100);
       const auto map = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d { return scale * (rotation * point) + shift; };
       MinimalProblem moved = problem;
-      for (solvers::RayMatch& ray : moved.rays) ray.centre = map(ray.centre), ray.direction = rotation * ray.direction;
+      for (solvers::RayMatch& ray : moved.rays) {
+        ray.centre = map(ray.centre);
+        ray.direction = rotation * ray.direction;
+      }
       for (solvers::PointMatch& match : moved.points) match.point = map(match.point);
       const FocalPoses solutions = solveOneCentre(problem), movedSolutions = solveOneCentre(moved);
       FocalPoses expected = solutions;
@@ -239,7 +250,8 @@ TEST_P(OneCentre, RollOfTheQueryTurnsOnlyItsRotation) {
     MinimalProblem rolled = problem;
     const auto roll = [&](double& u, double& v) {
       const double u0 = u;
-      u = c * u0 - s * v, v = s * u0 + c * v;
+      u = c * u0 - s * v;
+      v = s * u0 + c * v;
     };
     for (solvers::RayMatch& ray : rolled.rays) roll(ray.u, ray.v);
     for (solvers::PointMatch& match : rolled.points) roll(match.u, match.v);
@@ -263,8 +275,14 @@ TEST_P(OneCentre, DegenerateSamplesGiveNothing) {
        }},
       {"all image points equal",
        [](MinimalProblem& p) {
-         for (solvers::RayMatch& ray : p.rays) ray.u = p.rays[0].u, ray.v = p.rays[0].v;
-         for (solvers::PointMatch& match : p.points) match.u = p.rays[0].u, match.v = p.rays[0].v;
+         for (solvers::RayMatch& ray : p.rays) {
+           ray.u = p.rays[0].u;
+           ray.v = p.rays[0].v;
+         }
+         for (solvers::PointMatch& match : p.points) {
+           match.u = p.rays[0].u;
+           match.v = p.rays[0].v;
+         }
        }},
       {"all directions equal",
        [](MinimalProblem& p) {
@@ -317,14 +335,21 @@ TEST_P(OneCentre, HardSamplesGiveValidSolutionsOrNone) {
        [](MinimalProblem& p, Random& random) {
          for (solvers::RayMatch& ray : p.rays) {
            ray.direction = random.direction();
-           ray.u = random.uniform(-500, 500), ray.v = random.uniform(-500, 500);
+           ray.u = random.uniform(-500, 500);
+           ray.v = random.uniform(-500, 500);
          }
        }},
       {"unrelated data of extreme scale",
        [](MinimalProblem& p, Random& random) {
          const double scale = std::pow(10.0, random.uniform(-100, 100));
-         for (solvers::RayMatch& ray : p.rays) ray.u *= scale, ray.v *= scale;
-         for (solvers::PointMatch& match : p.points) match.u *= scale, match.v *= scale;
+         for (solvers::RayMatch& ray : p.rays) {
+           ray.u *= scale;
+           ray.v *= scale;
+         }
+         for (solvers::PointMatch& match : p.points) {
+           match.u *= scale;
+           match.v *= scale;
+         }
        }},
   };
   for (const auto& test : cases)

@@ -76,8 +76,10 @@ FocalErrors focalErrors(const SolverCase& solver, double imageNoise, int count) 
   for (int i = 0; i < count; ++i) {
     Random random(testSeed(), static_cast<std::uint64_t>(i));
     MinimalProblem problem = makeMinimalProblem(random, solver.raysPerCamera, solver.points);
-    for (solvers::PointMatch& match : problem.points)
-      match.u += imageNoise * random.normal(), match.v += imageNoise * random.normal();
+    for (solvers::PointMatch& match : problem.points) {
+      match.u += imageNoise * random.normal();
+      match.v += imageNoise * random.normal();
+    }
     double least = 100, ofFirst = 100;  // no solution: 100 %
     const FocalPoses poses = solve(solver, problem);
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -85,7 +87,8 @@ FocalErrors focalErrors(const SolverCase& solver, double imageNoise, int count) 
       if (k == 0) ofFirst = error;
       least = std::min(least, error);
     }
-    first.push_back(ofFirst), best.push_back(least);
+    first.push_back(ofFirst);
+    best.push_back(least);
   }
   return {median(first), median(best)};
 }
