@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "robust/RobustBox.hpp"
+
 namespace hybridgv {
 namespace robust {
 namespace {
@@ -12,31 +14,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kMaxShare = 0.5;
 // Natural log of the probability that a kind's inliers are chance, below which they are taken as more than that.
 constexpr double kLogMoreThanChance = -7;
-
-// The size of an image region that holds most of the points: a few wrong ones far away must not decide. It is the box that leaves out
-// a twentieth at each side, enlarged to the size that it would have for evenly spread points.
-class RobustBox {
- public:
-  void add(double u, double v) {
-    u_.push_back(u);
-    v_.push_back(v);
-  }
-  double area() const { return extent(u_) * extent(v_); }
-  double diagonal() const { return std::hypot(extent(u_), extent(v_)); }
-
- private:
-  static double extent(std::vector<double> values) {
-    if (values.empty()) return 0;
-    constexpr double kLeftOut = 0.05;
-    const auto skip = static_cast<std::ptrdiff_t>(kLeftOut * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + skip, values.end());
-    const double low = values[static_cast<std::size_t>(skip)];
-    std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
-    const double high = *(values.end() - 1 - skip);
-    return (high - low) / (1 - 2 * static_cast<double>(skip) / static_cast<double>(values.size()));
-  }
-  std::vector<double> u_, v_;
-};
 
 // Infinite if there is no whole.
 double share(double part, double whole) { return whole > 0 ? part / whole : std::numeric_limits<double>::infinity(); }
@@ -64,6 +41,15 @@ double ChanceModel::rayShare(double scale) const { return atMostHalf(scale * ray
 
 double ChanceModel::pointShare(double scale) const { return atMostHalf(scale * scale * pointShare_); }
 
+Shares ChanceModel::levelShares() const {
+  Shares result;
+  for (int level = 0; level < kLevels; ++level) {
+    result.rays[static_cast<std::size_t>(level)] = rayShare(thresholdAt(1, level));
+    result.points[static_cast<std::size_t>(level)] = pointShare(thresholdAt(1, level));
+  }
+  return result;
+}
+
 double logTail(int n, int k, double p) {
   if (k <= n * p || n <= 0) return 0;
   const double q = static_cast<double>(k) / n;
@@ -71,16 +57,12 @@ double logTail(int n, int k, double p) {
   return -n * (q * std::log(q / p) + rest);
 }
 
-bool ChanceModel::raysAreMoreThanChance(int inliers, int all) const {
-  return logTail(all, inliers, rayShare()) < kLogMoreThanChance;
+bool ChanceModel::raysAreMoreThanChance(int inliers, int all, double scale) const {
+  return logTail(all, inliers, rayShare(scale)) < kLogMoreThanChance;
 }
 
-bool ChanceModel::pointsAreMoreThanChance(int inliers, int all) const {
-  return logTail(all, inliers, pointShare()) < kLogMoreThanChance;
-}
-
-double ChanceModel::logProbability(const Support& support, int parameters) const {
-  return logProbability(support, rayShare(), pointShare(), parameters);
+bool ChanceModel::pointsAreMoreThanChance(int inliers, int all, double scale) const {
+  return logTail(all, inliers, pointShare(scale)) < kLogMoreThanChance;
 }
 
 double ChanceModel::logProbability(const Support& support, double rayShare, double pointShare, int parameters) {

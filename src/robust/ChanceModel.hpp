@@ -3,6 +3,7 @@
 
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Evidence.hpp"
+#include "robust/Levels.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -20,14 +21,15 @@ class ChanceModel {
   double rayShare(double scale = 1) const;
   double pointShare(double scale = 1) const;
 
+  Shares levelShares() const;
+
   // Whether a pose has more inliers of a kind than a wrong one would have.
-  bool raysAreMoreThanChance(int inliers, int all) const;
-  bool pointsAreMoreThanChance(int inliers, int all) const;
+  bool raysAreMoreThanChance(int inliers, int all, double scale = 1) const;
+  bool pointsAreMoreThanChance(int inliers, int all, double scale = 1) const;
 
   // Upper bound of the log10 of the probability that a wrong pose has at least this support, although it has been fitted:
-  // `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are.
-  double logProbability(const Support& support, int parameters) const;
-  // The same for shares of the kinds that are given.
+  // `parameters` of its equations (two per point, one per ray) hold by construction, whichever they are. The shares are those of a
+  // wrong pose's inliers.
   static double logProbability(const Support& support, double rayShare, double pointShare, int parameters);
 
  private:

@@ -26,7 +26,7 @@ ErrorMixture makeMixture(double deviation, double scale, double density, const I
   result.odds = std::min(std::max(inliers, 0.5) / outliers * density / count.chanceShare, kMaxOdds);
   result.outlierShare = outliers / all;
   const double boundary = scale * std::sqrt(std::max(std::pow(result.odds, 1 / 8.) - 1, 0.0));
-  result.boundary = std::min(std::max(boundary, kLeastBoundary * deviation), count.threshold);
+  result.boundary = std::min(std::max(boundary, kLeastBoundary * deviation), std::min(2 * count.threshold, count.bound));
   return result;
 }
 

@@ -20,17 +20,19 @@ struct ErrorMixture {
   double scale = 0;      // [px]
   double odds = 0;
   double outlierShare = 1;
-  double boundary = 0;  // [px] where inlier and outlier are equally likely; at least 2.5 deviations, at most the threshold
+  double boundary = 0;  // [px] where inlier and outlier are equally likely; at least 2.5 deviations, at most twice the
+                        // threshold and the bound
 
   KindLoss loss() const;
   // Log of the likelihood of the errors over that of outliers only.
   double logLikelihood(const std::vector<double>& squaredErrors) const;
 };
 
-// `inliers` of `all` errors are below the threshold, and as many of `all` outliers would be as `chanceShare` says.
+// `inliers` of `all` errors are below the threshold, and as many of `all` outliers would be as `chanceShare` says. No error above the
+// bound is an inlier's.
 struct InlierCount {
   std::size_t inliers, all;
-  double threshold, chanceShare;
+  double threshold, bound, chanceShare;
 };
 ErrorMixture rayMixture(double deviation, const InlierCount& count);
 ErrorMixture pointMixture(double deviation, const InlierCount& count);

@@ -40,8 +40,10 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       start_(start),
       data_(readSearchData(adapter, options)),
       choice_(makeStrategies(options.solvers, data_.sampler)),
-      scorer_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx, options.scoring),
-      chance_(data_.arrays, options.maxEpipolarErrorPx, options.maxReprojectionErrorPx),
+      scorer_(data_.arrays, thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, data_.arrays),
+              options.scoring),
+      chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
+      chanceShares_(chance_.levelShares()),
       significance_(scorer_, chance_, data_.sampler, estimated().parameters(), options.seed),
       optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated()),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
@@ -69,7 +71,8 @@ int HybridSearch::nextBatch(int batch) const {
 void HybridSearch::tryInitialPose() {
   Model model;
   model.pose = data_.arrays.normalization().apply(*options_.initialPose);
-  model.evaluation = scorer_.evaluate(model.pose);
+  SquaredErrors errors;
+  model.evaluation = scorer_.evaluateAtClearestLevels(model.pose, chanceShares_, errors);
   if (model.evaluation.score > 0) consider(model);
 }
 
@@ -124,32 +127,55 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
 
   const int found = strategy.solver.solve(rays, points, worker.solutions.data());
   for (int k = 0; k < found; ++k)
-    considerSolution(worker.solutions[static_cast<std::size_t>(k)], *strategy.solver.id, number, worker.best);
+    considerSolution(worker.solutions[static_cast<std::size_t>(k)], *strategy.solver.id, number, worker);
 }
 
-void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const {
+void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int number, WorkerState& worker) const {
   if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
   Candidate candidate;
   candidate.number = number;
   candidate.model.solver = solver;
   candidate.model.pose = pose;
-  candidate.model.evaluation = scorer_.evaluate(pose, expectation_);
+  candidate.model.evaluation = bestIsSignificant_ ? scorer_.evaluate(pose, expectation_)
+                                                  : scorer_.evaluateAtClearestLevels(pose, chanceShares_, worker.errors);
   if (!candidate.model.evaluation.complete) return;
   candidate.logChance = significance_.logChance(candidate.model.evaluation);
-  if (!best || candidate.isLessLikelyChance(*best)) best = candidate;
+  if (!worker.best || candidate.isLessLikelyChance(*worker.best)) worker.best = candidate;
 }
 
 void HybridSearch::consider(const Model& candidate) {
   Model optimized = candidate;
+  setThresholds(optimized);
   if (options_.localOptimization) {
     optimized.logLikelihood = optimizer_.logLikelihood(candidate.pose);
     ++localOptimizations_;
     replaceIfLikelier(optimizer_.refine(candidate.pose), optimized);
+    findThresholds(optimized);
   }
+  compare(optimized);
+  setThresholds(best_);
+}
+
+// The optimized model against the best one.
+void HybridSearch::compare(const Model& optimized) {
   // A model that is believed is replaced by a likelier one only.
   if (bestIsSignificant_ && options_.localOptimization && !(optimized.logLikelihood > best_.logLikelihood)) return;
   const bool isSignificant = significance_.isSignificant(optimized.pose);
   if (isBetter(optimized, isSignificant)) setBest(optimized, isSignificant);
+}
+
+// The thresholds of a model's evaluation become those of the search.
+void HybridSearch::setThresholds(const Model& model) {
+  const PerKind<double>&bounds = scorer_.bounds(), &scale = model.evaluation.scale;
+  scorer_.setThresholds({scale.rays * bounds.rays, scale.points * bounds.points});
+}
+
+// The model is evaluated, and the search goes on, with the thresholds that its errors ask for.
+void HybridSearch::findThresholds(Model& model) {
+  const SquaredErrors errors{scorer_.squaredRayErrors(model.pose), scorer_.squaredPointErrors(model.pose)};
+  scorer_.setThresholds(workingThresholds(errors, scorer_.bounds(), chance_));
+  model.evaluation = scorer_.evaluate(model.pose);
+  model.logLikelihood = optimizer_.logLikelihood(model.pose);
 }
 
 // A pose that is more than chance is better than one that is not; of optimized ones the likelier, otherwise the score decides.
@@ -195,7 +221,8 @@ void HybridSearch::learnFrom(const Model& model) {
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
   expectation_.goodShare = {share(inliers.rays, data_.sampler.numberRays()), share(inliers.points, data_.sampler.numberPoints())};
-  expectation_.chanceShare = {chance_.rayShare(), chance_.pointShare()};
+  const PerKind<double> scale = scorer_.scale();
+  expectation_.chanceShare = {chance_.rayShare(scale.rays), chance_.pointShare(scale.points)};
 }
 
 InlierCounts HybridSearch::inlierCounts(const QueryPose& pose) const {
@@ -221,9 +248,13 @@ bool HybridSearch::isDone() {
 }
 
 FinalPose HybridSearch::finish(bool optimize) {
-  if (optimize && !optimizer_.focalLengthIsSure(best_.pose)) escapeLocalOptimum(best_);
+  if (optimize && !optimizer_.focalLengthIsSure(best_.pose)) {
+    escapeLocalOptimum(best_);
+    findThresholds(best_);
+  }
   FinalPose result = optimizer_.polish(best_.pose, optimize);
   best_.pose = result.pose;
+  scorer_.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   best_.evaluation = scorer_.evaluate(best_.pose);
   return result;
 }

@@ -14,6 +14,7 @@
 #include "robust/SearchData.hpp"
 #include "robust/Significance.hpp"
 #include "robust/SolverChoice.hpp"
+#include "robust/Thresholds.hpp"
 #include "robust/WorkerPool.hpp"
 
 namespace hybridgv {
@@ -66,6 +67,7 @@ class HybridSearch {
   struct WorkerState {
     std::array<FocalPose, solvers::kMaxSolutions> solutions;  // scratch
     std::vector<int> draws;                                   // per strategy
+    PerKind<std::vector<double>> errors;                      // scratch
     std::optional<Candidate> best;
   };
 
@@ -74,8 +76,11 @@ class HybridSearch {
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
-  void considerSolution(const FocalPose& pose, Solver solver, int number, std::optional<Candidate>& best) const;
+  void considerSolution(const FocalPose& pose, Solver solver, int number, WorkerState& worker) const;
   void consider(const Model& candidate);
+  void compare(const Model& optimized);
+  void setThresholds(const Model& model);
+  void findThresholds(Model& model);
   void replaceIfLikelier(const QueryPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
   void setBest(const Model& model, bool isSignificant);
@@ -93,6 +98,7 @@ class HybridSearch {
   SolverChoice choice_;
   PoseScorer scorer_;
   ChanceModel chance_;
+  Shares chanceShares_;  // at all levels
   Significance significance_;
   LocalOptimizer optimizer_;
   WorkerPool workers_;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "correspondences/PaddedValues.hpp"
 #include "robust/Leverage.hpp"
+#include "robust/medians.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -16,14 +16,14 @@ namespace {
 
 using correspondences::PaddedValues;
 
-// Median of the square of one and of the sum of the squares of two standard normal variables.
-constexpr double kMedianOne = 0.4549364231195728, kMedianTwo = 1.3862943611198906;
-// Errors of exact data are rounding: a deviation below this share of the threshold is not measured.
+// Errors of exact data are rounding: a deviation below this share of the largest threshold is not measured.
 constexpr double kLeastDeviation = 1e-6;
 // A few errors do not tell their deviation. With less than this number, part of its square is that of what is expected: that of
-// the other kind, in the ratio of the thresholds; or the threshold over 2.5, if there are few of both.
-constexpr double kEnough = 20;
-constexpr double kExpectedPerThreshold = 1 / 2.5;
+// the other kind, twice as much for points as for rays; or the working threshold's, if there are few of both.
+constexpr double kEnough = 20, kPointsPerRays = 2;
+constexpr double kDeviationsInThreshold = 2.5;
+// The thresholds from which noise and share of the inliers are measured, in standard deviations: real errors have tails.
+constexpr double kDeviationsOfAll = 7;
 // Loss of the log of the likelihood: 2.8 standard deviations.
 constexpr double kClearLoss = 4;
 // A standard deviation of log f for which a pose at another distance is out of reach.
@@ -31,38 +31,35 @@ constexpr double kSureDeviation = 0.05;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
 constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
-std::vector<double> below(const std::vector<double>& squared, double threshold) {
-  std::vector<double> result;
-  result.reserve(squared.size());
-  const auto isInlier = [&](double e) { return e < threshold * threshold; };
-  std::copy_if(squared.begin(), squared.end(), std::back_inserter(result), isInlier);
-  return result;
-}
-
-// Reorders the values.
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+std::size_t countBelow(const std::vector<double>& squaredErrors, double threshold) {
+  const auto isBelow = [&](double e) { return e < threshold * threshold; };
+  return static_cast<std::size_t>(std::count_if(squaredErrors.begin(), squaredErrors.end(), isBelow));
 }
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.); }
 
 // The variance of one kind's errors, of which `count` are known.
 struct Measured {
-  double variance, threshold;
+  double variance;
   std::size_t count;
+  double threshold, bound;
 
   double known() const { return std::min(static_cast<double>(count) / kEnough, 1.0); }
-  double perThreshold() const { return std::sqrt(variance) / threshold; }
 };
 
-double deviation(const Measured& kind, const Measured& other) {
-  const double expectedPerThreshold = other.known() * other.perThreshold() + (1 - other.known()) * kExpectedPerThreshold;
-  const double expected = kind.threshold * std::min(expectedPerThreshold, kExpectedPerThreshold);
+// `ratio`: of the deviation to the other kind's, where nothing is known.
+double deviation(const Measured& kind, const Measured& other, double ratio) {
+  const double ofThreshold = kind.threshold / kDeviationsInThreshold;
+  const double ofOther = std::min(ratio * std::sqrt(other.variance), kind.bound / kDeviationsInThreshold);
+  const double expected = other.known() * ofOther + (1 - other.known()) * ofThreshold;
   const double variance = kind.known() * kind.variance + (1 - kind.known()) * expected * expected;
-  return std::max(std::sqrt(variance), kLeastDeviation * kind.threshold);
+  return std::max(std::sqrt(variance), kLeastDeviation * kind.bound);
+}
+
+Measured measured(const std::vector<double>& squaredErrors, double threshold, double bound, double medianOfSquares) {
+  constexpr double kWide = kDeviationsOfAll / kDeviationsInThreshold;
+  std::vector<double> inliers = below(squaredErrors, std::min(kWide * threshold, bound));
+  return {median(inliers) / medianOfSquares, inliers.size(), threshold, bound};
 }
 
 // Standard deviations of the inliers' errors at a fitted pose, which has taken up as many equations as it has parameters: their mean
@@ -115,7 +112,7 @@ QueryPose LocalOptimizer::refine(const QueryPose& start) const {
     Steps steps;
   };
   constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}};
-  const double ray = scorer_.maxEpipolarError(), point = scorer_.maxReprojectionError();
+  const double ray = scorer_.thresholds().rays, point = scorer_.thresholds().points;
   QueryPose pose = start;
   for (const Stage& stage : stages)
     pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, kBothKinds, stage.steps);
@@ -217,7 +214,7 @@ bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
 
 QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {
   const std::vector<double> squaredErrors = scorer_.squaredPointErrors(pose);
-  const double squaredThreshold = scorer_.maxReprojectionError() * scorer_.maxReprojectionError();
+  const double squaredThreshold = scorer_.thresholds().points * scorer_.thresholds().points;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   for (std::size_t i = 0; i < squaredErrors.size(); ++i)
@@ -256,8 +253,9 @@ LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindL
 Kinds LocalOptimizer::moreThanChance(const QueryPose& pose) const {
   const Evaluation evaluation = scorer_.evaluate(pose);
   const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
-  const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays())),
-                    chance_.pointsAreMoreThanChance(evaluation.points, size(scorer_.arrays().points()))};
+  const PerKind<double> scale = scorer_.scale();
+  const Kinds kinds{chance_.raysAreMoreThanChance(evaluation.rays, size(scorer_.arrays().rays()), scale.rays),
+                    chance_.pointsAreMoreThanChance(evaluation.points, size(scorer_.arrays().points()), scale.points)};
   return kinds.rays || kinds.points ? kinds : kBothKinds;
 }
 
@@ -269,35 +267,36 @@ SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& 
 }
 
 Noise LocalOptimizer::noise(const SquaredErrors& errors) const {
-  const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
-  std::vector<double> rays = below(errors.rays, maxRay), points = below(errors.points, maxPoint);
-  const Measured measuredRays{median(rays) / kMedianOne, maxRay, rays.size()};
-  const Measured measuredPoints{median(points) / kMedianTwo, maxPoint, points.size()};
-  return mixtures({deviation(measuredRays, measuredPoints), deviation(measuredPoints, measuredRays)},
-                  {rays.size(), points.size()});
+  const PerKind<double>& threshold = scorer_.thresholds();
+  const PerKind<double>& bound = scorer_.bounds();
+  const Measured rays = measured(errors.rays, threshold.rays, bound.rays, kMedianOfOneSquare);
+  const Measured points = measured(errors.points, threshold.points, bound.points, kMedianOfTwoSquares);
+  return mixtures({deviation(rays, points, 1 / kPointsPerRays), deviation(points, rays, kPointsPerRays)}, errors);
 }
 
-Noise LocalOptimizer::mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers) const {
-  if (inliers.rays > 0 && inliers.points > 0) allowForHiddenErrors(deviations.rays, deviations.points);
+Noise LocalOptimizer::mixtures(PerKind<double> deviations, const SquaredErrors& errors) const {
+  if (!errors.rays.empty() && !errors.points.empty()) allowForHiddenErrors(deviations.rays, deviations.points);
+  const PerKind<double>& bound = scorer_.bounds();
+  const double ray = std::min(kDeviationsOfAll * deviations.rays, bound.rays);
+  const double point = std::min(kDeviationsOfAll * deviations.points, bound.points);
   const CorrespondenceArrays& arrays = scorer_.arrays();
-  return {rayMixture(deviations.rays, {inliers.rays, arrays.rays().size(), scorer_.maxEpipolarError(), chance_.rayShare()}),
-          pointMixture(deviations.points,
-                       {inliers.points, arrays.points().size(), scorer_.maxReprojectionError(), chance_.pointShare()})};
+  return {rayMixture(deviations.rays,
+                     {countBelow(errors.rays, ray), arrays.rays().size(), ray, bound.rays, chance_.rayShare(ray / bound.rays)}),
+          pointMixture(deviations.points, {countBelow(errors.points, point), arrays.points().size(), point, bound.points,
+                                           chance_.pointShare(point / bound.points)})};
 }
 
 // The deviations follow from all errors that are more likely an inlier's, not from the median error; which these are depends on the
 // deviations.
 Noise LocalOptimizer::finalNoise(const SquaredErrors& errors) const {
   constexpr int kRounds = 3;
-  const double maxRay = scorer_.maxEpipolarError(), maxPoint = scorer_.maxReprojectionError();
-  const PerKind<std::size_t> inliers{below(errors.rays, maxRay).size(), below(errors.points, maxPoint).size()};
   Noise result = noise(errors);
   for (int round = 0; round < kRounds; ++round) {
     const SquaredErrors likelier{below(errors.rays, result.rays.boundary), below(errors.points, result.points.boundary)};
     PerKind<double> deviations = fittedDeviations(likelier, estimated_.parameters());
-    deviations.rays = std::max(deviations.rays, kLeastDeviation * maxRay);
-    deviations.points = std::max(deviations.points, kLeastDeviation * maxPoint);
-    result = mixtures(deviations, inliers);
+    deviations.rays = std::max(deviations.rays, kLeastDeviation * scorer_.bounds().rays);
+    deviations.points = std::max(deviations.points, kLeastDeviation * scorer_.bounds().points);
+    result = mixtures(deviations, errors);
     result.rays.deviation = deviations.rays;
     result.points.deviation = deviations.points;
   }

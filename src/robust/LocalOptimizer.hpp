@@ -54,8 +54,8 @@ class LocalOptimizer {
   SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds) const;
   Noise noise(const SquaredErrors& errors) const;
   Noise finalNoise(const SquaredErrors& errors) const;
-  // For these standard deviations of the errors [px] and numbers of inliers.
-  Noise mixtures(PerKind<double> deviations, const PerKind<std::size_t>& inliers) const;
+  // For these standard deviations of the inliers' errors [px].
+  Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors) const;
   LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
 
   struct Steps {

@@ -64,16 +64,6 @@ class Nearest {
 
 }  // namespace
 
-LevelCounts countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold) {
-  LevelCounts counts{};
-  for (int& count : counts) {
-    for (std::size_t i = 0; i < size; ++i) count += squaredErrors[i] < squaredThreshold ? 1 : 0;
-    if (count == 0) break;
-    squaredThreshold /= 4;
-  }
-  return counts;
-}
-
 OtherPairs::Partners OtherPairs::noPartners(std::size_t size, std::size_t rounds) {
   Partners partners;
   partners.size = size;

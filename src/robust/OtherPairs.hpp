@@ -1,26 +1,16 @@
 // How many image points of other correspondences a pose would take for a correspondence's own.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Evidence.hpp"
+#include "robust/Levels.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
 namespace robust {
-
-// Errors are counted below the thresholds T, T/2, T/4, .. of their kind.
-constexpr int kLevels = 7;
-using LevelCounts = std::array<int, kLevels>;
-using LevelShares = std::array<double, kLevels>;
-
-using Shares = PerKind<LevelShares>;
-
-// `squaredThreshold`: T^2.
-LevelCounts countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold);
 
 // A wrong pose's inliers are accidents. How frequent such accidents are depends on the data: image points that crowd in a few places,
 // or points of the rig that look like one from afar, agree with a wrong pose far more often than evenly spread ones. So it is

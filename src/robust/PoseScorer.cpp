@@ -42,13 +42,12 @@ class SequentialTest {
 
 }  // namespace
 
-PoseScorer::PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError,
-                       sac::Scoring scoring)
+PoseScorer::PoseScorer(const CorrespondenceArrays& arrays, const PerKind<double>& bounds, sac::Scoring scoring)
     : arrays_(arrays),
       points_(arrays.pointArrays()),
       rays_(arrays.rayArrays()),
-      maxEpipolarError_(maxEpipolarError),
-      maxReprojectionError_(maxReprojectionError),
+      bounds_(bounds),
+      thresholds_(bounds),
       scoring_(scoring) {
   makeChunks();
 }
@@ -62,7 +61,7 @@ void PoseScorer::makeChunks() {
 }
 
 int PoseScorer::add(const Chunk& chunk, const Kernels& kernels, const PlainPose& pose, Evaluation& evaluation) const {
-  const double threshold = chunk.isRays ? maxEpipolarError_ : maxReprojectionError_;
+  const double threshold = chunk.isRays ? thresholds_.rays : thresholds_.points;
   const Score part = chunk.isRays ? kernels.scoreRays(rays_, pose, threshold * threshold, chunk.begin, chunk.end)
                                   : kernels.scorePoints(points_, pose, threshold * threshold, chunk.begin, chunk.end);
   evaluation.score += scoring_ == sac::Scoring::Msac ? part.msac : part.inliers;
@@ -76,6 +75,7 @@ Evaluation PoseScorer::evaluate(const QueryPose& pose) const {
   Evaluation result;
   for (const Chunk& chunk : chunks_) add(chunk, kernels, plain, result);
   result.complete = true;
+  result.scale = scale();
   return result;
 }
 
@@ -84,6 +84,7 @@ Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expect
   const Kernels& kernels = kernelsFor(plain);
   SequentialTest test(expectation);
   Evaluation result;
+  result.scale = scale();
   std::size_t left = points_.size + rays_.size;
   for (const Chunk& chunk : chunks_) {
     const std::size_t count = chunk.end - chunk.begin;
@@ -92,6 +93,43 @@ Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expect
     if (result.score + static_cast<double>(left) <= expectation.score || test.isHopeless()) return result;
   }
   result.complete = true;
+  return result;
+}
+
+void PoseScorer::computeErrors(const QueryPose& pose, PerKind<std::vector<double>>& errors) const {
+  const PlainPose plain = toPlain(pose);
+  errors.rays.resize(rays_.size + correspondences::kPadding);
+  errors.points.resize(points_.size + correspondences::kPadding);
+  kernelsFor(plain).squaredRayErrors(rays_, plain, errors.rays.data());
+  kernelsFor(plain).squaredPointErrors(points_, plain, errors.points.data());
+  errors.rays.resize(rays_.size);
+  errors.points.resize(points_.size);
+}
+
+double PoseScorer::scoreOf(const std::vector<double>& squaredErrors, double threshold, int inliers) const {
+  if (scoring_ == sac::Scoring::InlierCount) return inliers;
+  const double squared = threshold * threshold;
+  double sum = 0;
+  for (const double e : squaredErrors) sum += e < squared ? 1 - e / squared : 0;
+  return sum;
+}
+
+Evaluation PoseScorer::evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance,
+                                                PerKind<std::vector<double>>& errors) const {
+  // What is in a sample agrees by construction.
+  constexpr int kFittedRays = 4, kFittedPoints = 2;
+  computeErrors(pose, errors);
+  const LevelCounts rays = countLevels(errors.rays.data(), rays_.size, bounds_.rays * bounds_.rays);
+  const LevelCounts points = countLevels(errors.points.data(), points_.size, bounds_.points * bounds_.points);
+  const int ray = clearestLevel(rays, rays_.size, chance.rays, kFittedRays);
+  const int point = clearestLevel(points, points_.size, chance.points, kFittedPoints);
+  Evaluation result;
+  result.complete = true;
+  result.rays = rays[static_cast<std::size_t>(ray)];
+  result.points = points[static_cast<std::size_t>(point)];
+  result.scale = {thresholdAt(1, ray), thresholdAt(1, point)};
+  result.score = scoreOf(errors.rays, thresholdAt(bounds_.rays, ray), result.rays) +
+                 scoreOf(errors.points, thresholdAt(bounds_.points, point), result.points);
   return result;
 }
 
@@ -117,7 +155,7 @@ PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose) const {
     std::transform(errors.begin(), errors.end(), mask.begin(), [&](double e) { return e < threshold * threshold; });
     return mask;
   };
-  return {below(squaredRayErrors(pose), maxEpipolarError_), below(squaredPointErrors(pose), maxReprojectionError_)};
+  return {below(squaredRayErrors(pose), thresholds_.rays), below(squaredPointErrors(pose), thresholds_.points)};
 }
 
 }  // namespace robust

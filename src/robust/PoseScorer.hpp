@@ -5,6 +5,7 @@
 
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/Levels.hpp"
 #include "robust/PerKind.hpp"
 #include "robust/QueryPose.hpp"
 #include "robust/kernels/Kernels.hpp"
@@ -16,8 +17,9 @@ using correspondences::CorrespondenceArrays;
 
 struct Evaluation {
   double score = 0;
-  int points = 0, rays = 0;  // inliers
-  bool complete = false;     // false: given up as hopeless
+  int points = 0, rays = 0;     // inliers
+  bool complete = false;        // false: given up as hopeless
+  PerKind<double> scale{1, 1};  // of the thresholds over their bounds
 };
 
 // When to give up on a pose. It must be able to exceed `score`, and must not look like one whose inliers are chance: Wald's
@@ -33,12 +35,15 @@ constexpr double kFalseRejection = 0.01;
 class PoseScorer {
  public:
   // The arrays must outlive the scorer and be in random order.
-  PoseScorer(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError, sac::Scoring scoring);
+  PoseScorer(const CorrespondenceArrays& arrays, const PerKind<double>& bounds, sac::Scoring scoring);
 
   // Over all correspondences.
   Evaluation evaluate(const QueryPose& pose) const;
   // The same, given up early where there is no hope.
   Evaluation evaluate(const QueryPose& pose, const Expectation& expectation) const;
+  // Over all correspondences, with the thresholds at which the inliers exceed most clearly what chance gives: bounds / 2^k of each
+  // kind. `chance`: shares of a wrong pose's inliers; `errors`: room for those of both kinds.
+  Evaluation evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance, PerKind<std::vector<double>>& errors) const;
   // Masks of the correspondences whose error is below their kind's threshold.
   PerKind<std::vector<char>> inliers(const QueryPose& pose) const;
   // Errors of one kind at a pose, infinite for those that are no inliers.
@@ -46,8 +51,12 @@ class PoseScorer {
   std::vector<double> squaredPointErrors(const QueryPose& pose) const;
 
   const CorrespondenceArrays& arrays() const { return arrays_; }
-  double maxEpipolarError() const { return maxEpipolarError_; }
-  double maxReprojectionError() const { return maxReprojectionError_; }
+  // The thresholds of inliers, at first their bounds.
+  const PerKind<double>& thresholds() const { return thresholds_; }
+  const PerKind<double>& bounds() const { return bounds_; }
+  // The thresholds over their bounds.
+  PerKind<double> scale() const { return {thresholds_.rays / bounds_.rays, thresholds_.points / bounds_.points}; }
+  void setThresholds(const PerKind<double>& thresholds) { thresholds_ = thresholds; }
 
  private:
   struct Chunk {
@@ -57,11 +66,13 @@ class PoseScorer {
   void makeChunks();
   // Adds the chunk's correspondences to the evaluation; returns its inliers.
   int add(const Chunk& chunk, const Kernels& kernels, const PlainPose& pose, Evaluation& evaluation) const;
+  double scoreOf(const std::vector<double>& squaredErrors, double threshold, int inliers) const;
+  void computeErrors(const QueryPose& pose, PerKind<std::vector<double>>& errors) const;
 
   const CorrespondenceArrays& arrays_;
   PointArrays points_;
   RayArrays rays_;
-  double maxEpipolarError_, maxReprojectionError_;
+  PerKind<double> bounds_, thresholds_;
   sac::Scoring scoring_;
   std::vector<Chunk> chunks_;
 };

@@ -20,6 +20,9 @@ constexpr double kLogFalseAlarms = -6, kLogFalseAlarmsOfNeighbours = -2;
 // The first without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
 // every way, and up to half of them are inliers there.
 constexpr double kLogFalseAlarmsOfRays = -25;
+// One of 49 choices of the two kinds' levels is the best by chance: log10 of their number.
+constexpr double kLogChoices = 1.690196080028514;
+static_assert(kLevels == 7, "");
 
 Shares largest(const Shares& a, const Shares& b) {
   Shares result;
@@ -29,8 +32,6 @@ Shares largest(const Shares& a, const Shares& b) {
   }
   return result;
 }
-
-double thresholdAt(double threshold, int level) { return std::ldexp(threshold, -level); }
 
 // ChanceModel::logProbability at every two levels, if every correspondence counts. The tails of the binomial distributions, of which
 // it is made up, are computed once.
@@ -79,7 +80,8 @@ void Significance::setSamples(int samples) { logSamples_ = std::log10(samples + 
 
 double Significance::logChance(const Evaluation& evaluation) const {
   const Support support{evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
-  return chance_.logProbability(support, parameters_);
+  const double rayShare = chance_.rayShare(evaluation.scale.rays), pointShare = chance_.pointShare(evaluation.scale.points);
+  return ChanceModel::logProbability(support, rayShare, pointShare, parameters_) + kLogChoices;
 }
 
 bool Significance::isPromising(double logChance) const { return logAlarms(logChance) < 0; }
@@ -90,9 +92,9 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   const SquaredErrors errors{scorer_.squaredRayErrors(pose), scorer_.squaredPointErrors(pose)};
   const PlainPose plain = toPlain(pose);
   const auto sharesOf = [&](const OtherPairs& pairs) {
-    return pairs.shares(plain, scorer_.maxEpipolarError(), scorer_.maxReprojectionError());
+    return pairs.shares(plain, scorer_.bounds().rays, scorer_.bounds().points);
   };
-  Shares shares = uniformShares();
+  Shares shares = chance_.levelShares();
   if (!isLessLikelyThan(logFalseAlarms, errors, shares)) return false;
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), seed_);
   shares = largest(shares, sharesOf(*randomPairs_));
@@ -107,10 +109,9 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& 
     double logProbability;
     PerKind<int> levels;
   };
-  const LevelTails rays(errors.rays, scorer_.maxEpipolarError(), shares.rays);
-  const LevelTails points(errors.points, scorer_.maxReprojectionError(), shares.points);
-  // One of so many choices of the two levels is the best by chance.
-  const double logBound = logFalseAlarms - logSamples_ - std::log10(static_cast<double>(kLevels) * kLevels);
+  const LevelTails rays(errors.rays, scorer_.bounds().rays, shares.rays);
+  const LevelTails points(errors.points, scorer_.bounds().points, shares.points);
+  const double logBound = logFalseAlarms - logSamples_ - kLogChoices;
   std::vector<Choice> choices;
   for (int a = 0; a < kLevels; ++a)
     for (int b = 0; b < kLevels; ++b) {
@@ -127,18 +128,9 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& 
   });
 }
 
-Shares Significance::uniformShares() const {
-  Shares result;
-  for (int level = 0; level < kLevels; ++level) {
-    result.rays[static_cast<std::size_t>(level)] = chance_.rayShare(thresholdAt(1, level));
-    result.points[static_cast<std::size_t>(level)] = chance_.pointShare(thresholdAt(1, level));
-  }
-  return result;
-}
-
 InlierMasks Significance::inliersAt(const SquaredErrors& errors, const PerKind<int>& levels) const {
-  return {below(errors.rays, thresholdAt(scorer_.maxEpipolarError(), levels.rays)),
-          below(errors.points, thresholdAt(scorer_.maxReprojectionError(), levels.points))};
+  return {below(errors.rays, thresholdAt(scorer_.bounds().rays, levels.rays)),
+          below(errors.points, thresholdAt(scorer_.bounds().points, levels.points))};
 }
 
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
@@ -147,13 +139,15 @@ bool Significance::hasFixedScale(const QueryPose& pose, const InlierCounts& inli
   const std::vector<int>& perCamera = inliers.raysPerCamera;
   const auto largest = std::max_element(perCamera.begin(), perCamera.end());
   if (largest == perCamera.end() || *largest < parameters_ - 1) return true;
+  const PerKind<double> scale = scorer_.scale();
   const Support rest = evidence_.supportWithoutCamera(scorer_.inliers(pose), static_cast<int>(largest - perCamera.begin()));
-  return logAlarms(chance_.logProbability(rest, 1)) < kLogFalseAlarms;
+  return logAlarms(ChanceModel::logProbability(rest, chance_.rayShare(scale.rays), chance_.pointShare(scale.points), 1)) <
+         kLogFalseAlarms;
 }
 
 sac::FailureReason Significance::verdict(const QueryPose& pose, const Evaluation& evaluation, const InlierCounts& inliers,
                                          bool isDetermined) {
-  const bool hasPoints = chance_.pointsAreMoreThanChance(evaluation.points, sampler_.numberPoints());
+  const bool hasPoints = chance_.pointsAreMoreThanChance(evaluation.points, sampler_.numberPoints(), evaluation.scale.points);
   if (!isLessLikelyThan(hasPoints ? kLogFalseAlarms : kLogFalseAlarmsOfRays, pose)) return sac::FailureReason::InliersMayBeChance;
   if (!isDetermined || !hasFixedScale(pose, inliers)) return sac::FailureReason::UndeterminedPose;
   return sac::FailureReason::None;

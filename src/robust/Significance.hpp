@@ -28,7 +28,7 @@ class Significance {
   // Tells how many samples have been drawn so far.
   void setSamples(int samples);
 
-  // log10 of the probability that a wrong pose looks as good as a minimal solution with these inliers and this focal length.
+  // log10 of the probability that a wrong pose looks as good as a pose with these inliers.
   double logChance(const Evaluation& evaluation) const;
   // Whether less than one wrong pose is expected to look as good: the solution deserves a closer look.
   bool isPromising(double logChance) const;
@@ -43,7 +43,6 @@ class Significance {
   bool isLessLikelyThan(double logFalseAlarms, const QueryPose& pose);
   // For the shares of inliers that wrong poses have.
   bool isLessLikelyThan(double logFalseAlarms, const PerKind<std::vector<double>>& squaredErrors, const Shares& shares) const;
-  Shares uniformShares() const;
   InlierMasks inliersAt(const PerKind<std::vector<double>>& squaredErrors, const PerKind<int>& levels) const;
   bool hasFixedScale(const QueryPose& pose, const InlierCounts& inliers) const;
 

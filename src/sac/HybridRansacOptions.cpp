@@ -34,8 +34,10 @@ static void requireListed(const std::vector<Enumeration>& values, const char* na
 
 void HybridRansacOptions::check() const {
   const auto positiveFinite = [](double value) { return value > 0 && std::isfinite(value); };
-  require(positiveFinite(maxReprojectionErrorPx), "maxReprojectionErrorPx", maxReprojectionErrorPx, "positive and finite");
-  require(positiveFinite(maxEpipolarErrorPx), "maxEpipolarErrorPx", maxEpipolarErrorPx, "positive and finite");
+  const auto isThreshold = [](double value) { return value >= 0 && std::isfinite(value); };
+  require(isThreshold(maxReprojectionErrorPx), "maxReprojectionErrorPx", maxReprojectionErrorPx,
+          "positive and finite, or 0 (automatic)");
+  require(isThreshold(maxEpipolarErrorPx), "maxEpipolarErrorPx", maxEpipolarErrorPx, "positive and finite, or 0 (automatic)");
   require(successProbability > 0 && successProbability < 1, "successProbability", successProbability, "between 0 and 1");
   require(maxIterations > 0, "maxIterations", maxIterations, "positive");
   require(minIterations >= 0, "minIterations", minIterations, "not negative");

@@ -55,7 +55,7 @@ TEST(ChanceModel, WrongPosesHaveNoLargerSharesOfInliersOnAverage) {
   for (int i = 0; i < 100; ++i) {
     const Outliers data(random);
     const ChanceModel chance(data.arrays, 6, 60);
-    const PoseScorer scorer(data.arrays, 6, 60, sac::Scoring::Msac);
+    const PoseScorer scorer(data.arrays, {6, 60}, sac::Scoring::Msac);
     const FocalPose pose = data.arrays.normalization().apply(data.scene.truth);
     const Evaluation evaluation = scorer.evaluate(pose);
     rays += evaluation.rays / 300.;

@@ -57,8 +57,8 @@ TEST(Leverage, TellsTheErrorOfARayAtTheMinimumWithoutIt) {
   const LeastSquaresProblem problem = makeProblem(arrays, kUnitNoise, kUnitNoise);
   const FocalPose minimum = minimize(problem, arrays.normalization().apply(scene.truth)).pose;
   const std::vector<double> leverages = rayLeverages(problem, minimum);
-  const std::vector<double> errors = PoseScorer(arrays, 10, 10, sac::Scoring::Msac).squaredRayErrors(minimum);
-  const PoseScorer inWorld(arrays, 10, 10, sac::Scoring::Msac);
+  const std::vector<double> errors = PoseScorer(arrays, {10, 10}, sac::Scoring::Msac).squaredRayErrors(minimum);
+  const PoseScorer inWorld(arrays, {10, 10}, sac::Scoring::Msac);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const correspondences::CorrespondenceArrays rest = readAll(without(scene, i).adapter());
     const FocalPose start = rest.normalization().apply(arrays.normalization().undo(minimum));
@@ -127,7 +127,7 @@ TEST(Leverage, OfASingleWrongRaySeldomHoldsAPose) {
     const test::HybridScene scene = withLever(random, right, wrong);
 
     const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
-    const PoseScorer scorer(arrays, 6, 12, sac::Scoring::Msac);
+    const PoseScorer scorer(arrays, {6, 12}, sac::Scoring::Msac);
     const ChanceModel chance(arrays, 6, 12);
     const LocalOptimizer optimizer(scorer, chance, {}, 0, 1e9);
     const auto squaredError = [&](const FocalPose& pose) { return scorer.squaredRayErrors(pose).back(); };

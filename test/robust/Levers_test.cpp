@@ -47,7 +47,7 @@ TEST(Levers, ARefusedRayWithoutErrorDoesNotCount) {
   const test::HybridScene scene = makeScene(random);
   const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
   const QueryPose pose = arrays.normalization().apply(scene.truth);
-  ASSERT_EQ(PoseScorer(arrays, 1, 1, sac::Scoring::Msac).squaredRayErrors(pose)[0], 0);
+  ASSERT_EQ(PoseScorer(arrays, {1, 1}, sac::Scoring::Msac).squaredRayErrors(pose)[0], 0);
   RayTreatment treatment(1);
   treatment.refuse({0});
   const correspondences::PaddedValues narrowing = treatment.narrowing();

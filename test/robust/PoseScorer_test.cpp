@@ -34,7 +34,7 @@ struct Data {
 TEST(PoseScorer, ScoreIsTheSumOverBothKindsWithTheirOwnThresholds) {
   test::Random random(test::testSeed(), 60);
   const Data data(random, 150, 333, 0.3);
-  const PoseScorer msac(data.arrays, 5, 11, sac::Scoring::Msac), inliers(data.arrays, 5, 11, sac::Scoring::InlierCount);
+  const PoseScorer msac(data.arrays, {5, 11}, sac::Scoring::Msac), inliers(data.arrays, {5, 11}, sac::Scoring::InlierCount);
   const FocalPose pose = data.truth();
   double expected = 0;
   int count = 0;
@@ -58,7 +58,7 @@ TEST(PoseScorer, ScoreIsTheSumOverBothKindsWithTheirOwnThresholds) {
 TEST(PoseScorer, APoseThatCannotWinIsGivenUpAndOneThatCanIsNot) {
   test::Random random(test::testSeed(), 61);
   const Data data(random, 300, 300, 0.3);
-  const PoseScorer scorer(data.arrays, 6, 12, sac::Scoring::Msac);
+  const PoseScorer scorer(data.arrays, {6, 12}, sac::Scoring::Msac);
   const double score = scorer.evaluate(data.truth()).score;
   Expectation expectation;
   expectation.score = 0.99 * score;
@@ -73,7 +73,7 @@ TEST(PoseScorer, SequentialTestKeepsGoodPosesAndGivesUpChanceOnesEarly) {
   const int count = 200;
   for (int i = 0; i < count; ++i) {
     const Data data(random, 300, 300, 0.6);
-    const PoseScorer scorer(data.arrays, 6, 12, sac::Scoring::Msac);
+    const PoseScorer scorer(data.arrays, {6, 12}, sac::Scoring::Msac);
     Expectation expectation;
     expectation.goodShare = {0.3, 0.3};
     expectation.chanceShare = {0.03, 0.03};

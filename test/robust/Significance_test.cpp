@@ -87,7 +87,7 @@ TEST_F(SignificanceTest, RaysOfOneCameraAloneDoNotFixTheScale) {
   const NoncentralHybridAdapter onlyOneCamera = scene.adapter();
   const correspondences::CorrespondenceArrays oneCamera(onlyOneCamera, correspondences::allIndices(kRays),
                                                         correspondences::allIndices(kPoints));
-  const PoseScorer oneCameraScorer(oneCamera, 4, 6, sac::Scoring::Msac);
+  const PoseScorer oneCameraScorer(oneCamera, {4, 6}, sac::Scoring::Msac);
   Significance ofOneCamera(oneCameraScorer, chance, sampler, 7, 1);
   const QueryPose pose = oneCamera.normalization().apply(scene.truth);
   const PerKind<std::vector<char>> masks = oneCameraScorer.inliers(pose);

@@ -21,9 +21,11 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   bool success = false;                                  ///< the pose can be relied on
   FailureReason failureReason = FailureReason::NoModel;  ///< None on success
 
-  FocalPose pose;                 ///< also set if success is false and a model was found (see score), but not to be relied on
-  std::vector<char> inliers2d2d;  ///< 1 for an inlier, one entry per 2D-2D correspondence
-  std::vector<char> inliers2d3d;  ///< 1 for an inlier, one entry per 2D-3D correspondence
+  FocalPose pose;  ///< also set if success is false and a model was found (see score), but not to be relied on
+  /// 1 for an inlier, one entry per 2D-2D correspondence. An inlier's error is below the options' bound, and so small that it is
+  /// more likely an inlier's than an outlier's (or at most 2.5 standard deviations).
+  std::vector<char> inliers2d2d;
+  std::vector<char> inliers2d3d;  ///< the same for each 2D-3D correspondence
   int numberInliers2d2d = 0;      ///< number of inliers among the 2D-2D correspondences
   int numberInliers2d3d = 0;      ///< number of inliers among the 2D-3D correspondences
   double score = 0;               ///< score of the pose, by options.scoring; 0 without a model

@@ -37,8 +37,11 @@ enum class Sampling {
 /// What hybridRansac may do. Every length is in pixels of the query image (that is, in the unit of the adapter's image points),
 /// nothing is squared.
 struct HYBRIDGV_EXPORT HybridRansacOptions {
-  double maxReprojectionErrorPx = 12;  ///< 2D-3D: largest reprojection error of an inlier
-  double maxEpipolarErrorPx = 6;       ///< 2D-2D: largest Sampson error of an inlier
+  /// Upper bounds of an inlier's error: 2D-3D, the reprojection error; 2D-2D, the Sampson error. The noise of each kind, and with it
+  /// the limit between inliers and outliers, is found by the search itself, so a bound need only not be too small. 0 (automatic): a
+  /// twentieth (2D-3D) and a hundredth (2D-2D) of the diagonal of the box that holds most image points.
+  double maxReprojectionErrorPx = 0;
+  double maxEpipolarErrorPx = 0;  ///< see maxReprojectionErrorPx
 
   /// Stop when the probability to have missed a sample of inliers only, over all solvers together, is below 1 minus this.
   double successProbability = 0.9999;

@@ -1,0 +1,36 @@
+#include "robust/Levels.hpp"
+
+#include <cmath>
+
+namespace hybridgv {
+namespace robust {
+
+LevelCounts countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold) {
+  LevelCounts counts{};
+  for (int& count : counts) {
+    for (std::size_t i = 0; i < size; ++i) count += squaredErrors[i] < squaredThreshold ? 1 : 0;
+    if (count == 0) break;
+    squaredThreshold /= 4;
+  }
+  return counts;
+}
+
+double thresholdAt(double threshold, int level) { return std::ldexp(threshold, -level); }
+
+int clearestLevel(const LevelCounts& counts, std::size_t all, const LevelShares& chance, int fitted) {
+  int clearest = 0;
+  double largest = 0;
+  for (int level = 0; level < kLevels; ++level) {
+    const double expected = static_cast<double>(all) * chance[static_cast<std::size_t>(level)];
+    const double excess = counts[static_cast<std::size_t>(level)] - fitted - expected;
+    const double clearness = excess > 0 ? excess * excess / (expected + 0.3 * excess) : 0;
+    if (clearness > largest) {
+      largest = clearness;
+      clearest = level;
+    }
+  }
+  return clearest;
+}
+
+}  // namespace robust
+}  // namespace hybridgv

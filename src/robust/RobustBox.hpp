@@ -1,0 +1,38 @@
+// The size of an image region that holds most of some points.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace hybridgv {
+namespace robust {
+
+// A few points far away must not decide: it is the box that leaves out a twentieth at each side, enlarged to the size that it would
+// have for evenly spread points.
+class RobustBox {
+ public:
+  void add(double u, double v) {
+    u_.push_back(u);
+    v_.push_back(v);
+  }
+  double area() const { return extent(u_) * extent(v_); }
+  double diagonal() const { return std::hypot(extent(u_), extent(v_)); }
+
+ private:
+  static double extent(std::vector<double> values) {
+    if (values.empty()) return 0;
+    constexpr double kLeftOut = 0.05;
+    const auto skip = static_cast<std::ptrdiff_t>(kLeftOut * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + skip, values.end());
+    const double low = values[static_cast<std::size_t>(skip)];
+    std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
+    const double high = *(values.end() - 1 - skip);
+    return (high - low) / (1 - 2 * static_cast<double>(skip) / static_cast<double>(values.size()));
+  }
+  std::vector<double> u_, v_;
+};
+
+}  // namespace robust
+}  // namespace hybridgv
