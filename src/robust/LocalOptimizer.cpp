@@ -20,7 +20,9 @@ using correspondences::PaddedValues;
 constexpr double kLeastDeviation = 1e-6;
 // A few errors do not tell their deviation. With less than this number, part of its square is that of what is expected: that of
 // the other kind, twice as much for points as for rays; or the working threshold's, if there are few of both.
-constexpr double kEnough = 20, kPointsPerRays = 2;
+constexpr double kEnough = 80, kPointsPerRays = 2;
+// The same at the final pose, where the number of parameters that were fitted is known.
+constexpr double kEnoughAtEnd = 20;
 constexpr double kDeviationsInThreshold = 2.5;
 // The thresholds from which noise and share of the inliers are measured, in standard deviations: real errors have tails.
 constexpr double kDeviationsOfAll = 7;
@@ -70,7 +72,7 @@ PerKind<double> fittedDeviations(const SquaredErrors& inliers, int parameters) {
   const PerKind<double> sums{sum(inliers.rays), sum(inliers.points)};
   const double common = all > 0 ? (sums.rays + sums.points) / all : 0;
   const auto deviation = [&](double sumOfKind, double ofKind) {
-    const double known = std::min(ofKind / kEnough, 1.0), own = ofKind > 0 ? sumOfKind / ofKind : 0;
+    const double known = std::min(ofKind / kEnoughAtEnd, 1.0), own = ofKind > 0 ? sumOfKind / ofKind : 0;
     return std::sqrt(excess * (known * own + (1 - known) * common));
   };
   return {deviation(sums.rays, equations.rays), deviation(sums.points, equations.points)};

@@ -16,9 +16,9 @@ TEST(Misuse, RansacRefusesWrongOptions) {
     std::function<void(HybridRansacOptions&, double)> set;
   } rows[] = {
       {"maxReprojectionErrorPx",
-       {kNaN, kInfinite, -kInfinite, 0, -1, -1e-9, -1e300},
+       {kNaN, kInfinite, -kInfinite, -1, -1e-9, -1e300},
        [](auto& o, double v) { o.maxReprojectionErrorPx = v; }},
-      {"maxEpipolarErrorPx", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxEpipolarErrorPx = v; }},
+      {"maxEpipolarErrorPx", {kNaN, kInfinite, -kInfinite, -1}, [](auto& o, double v) { o.maxEpipolarErrorPx = v; }},
       {"successProbability", {kNaN, kInfinite, -kInfinite, 0, 1, -0.5, 1.5}, [](auto& o, double v) { o.successProbability = v; }},
       {"maxIterations", {0, -1}, [](auto& o, double v) { o.maxIterations = static_cast<int>(v); }},
       {"minIterations", {-1}, [](auto& o, double v) { o.minIterations = static_cast<int>(v); }},

@@ -14,7 +14,7 @@ using namespace robust;
 
 constexpr double kThreshold = 10, kChanceShare = 0.05;
 
-InlierCount half(std::size_t all) { return {all / 2, all, kThreshold, kChanceShare}; }
+InlierCount half(std::size_t all) { return {all / 2, all, kThreshold, kThreshold, kChanceShare}; }
 
 double oddsAt(const ErrorMixture& mixture, double error) {
   return mixture.odds * std::pow(1 + std::pow(error / mixture.scale, 2), -8);
@@ -56,7 +56,17 @@ TEST(ErrorMixture, AtTheBoundaryInlierAndOutlierAreEquallyLikely) {
     EXPECT_NEAR(oddsAt(mixture, mixture.boundary), 1, 1e-9);
   }
   EXPECT_EQ(rayMixture(8, half(100)).boundary, kThreshold);
-  EXPECT_EQ(rayMixture(1, {1, 1000, kThreshold, 0.5}).boundary, 2.5);
+  EXPECT_EQ(rayMixture(1, {1, 1000, kThreshold, kThreshold, 0.5}).boundary, 2.5);
+}
+
+TEST(ErrorMixture, TheBoundaryMayBeTwiceTheThresholdButNotAboveTheBound) {
+  const auto boundary = [](double threshold, double bound) {
+    return rayMixture(1, {99, 100, threshold, bound, kChanceShare}).boundary;
+  };
+  const double unlimited = boundary(100, 100);
+  EXPECT_GT(unlimited, 2.5);
+  EXPECT_EQ(boundary(1, 100), 2);
+  EXPECT_EQ(boundary(1, 1.5), 1.5);
 }
 
 // What the least-squares problem adds up is -2 times the log of the likelihood, up to a constant.
@@ -82,7 +92,7 @@ TEST(ErrorMixture, TheRightNoiseIsTheLikeliest) {
 
 TEST(ErrorMixture, NoInliersAndNoCorrespondencesAreHarmless) {
   for (const std::size_t all : {0, 1, 50}) {
-    const ErrorMixture mixture = rayMixture(1, {0, all, kThreshold, kChanceShare});
+    const ErrorMixture mixture = rayMixture(1, {0, all, kThreshold, kThreshold, kChanceShare});
     EXPECT_TRUE(std::isfinite(mixture.odds) && mixture.odds > 0 && mixture.boundary > 0);
     EXPECT_TRUE(std::isfinite(mixture.logLikelihood(std::vector<double>(all, 4))));
   }

@@ -78,7 +78,7 @@ sac::HybridRansacResult localize(const HybridScene& scene, std::uint64_t seed) {
 class LongLens : public testing::TestWithParam<double> {};
 
 TEST_P(LongLens, HardlyAnyErrorIsFarBeyondTheStatedDeviation) {
-  constexpr int kScenes = 60;
+  constexpr int kScenes = 300;
   Random random(testSeed() + 9400);
   int success = 0, beyond = 0;
   for (int i = 0; i < kScenes; ++i) {
@@ -88,7 +88,7 @@ TEST_P(LongLens, HardlyAnyErrorIsFarBeyondTheStatedDeviation) {
     beyond += std::abs(result.pose.focalLength - kFocalLength) > 5 * result.focalLengthStandardDeviation;
   }
   EXPECT_GE(success, kScenes * 8 / 10);
-  EXPECT_LE(beyond, 1);
+  EXPECT_LE(beyond, kScenes * 2 / 100);
 }
 
 TEST_P(LongLens, TheSeedChangesTheResultByLessThanTheStatedDeviation) {

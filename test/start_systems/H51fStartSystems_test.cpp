@@ -14,10 +14,10 @@ namespace test {
 namespace {
 
 using namespace math;
-using solvers::h51f::H51fSystem;
 using solvers::h51f::KnownSolution;
 using solvers::h51f::KnownSystem;
 using solvers::h51f::Sharing;
+using solvers::h51f::HYBRIDGV_INSTRUCTION_SET::H51fSystem;
 using Number = std::complex<double>;
 constexpr int N = solvers::h51f::kUnknowns;
 

@@ -10,9 +10,8 @@
 #include "math/homotopy/PathTracker.hpp"
 
 namespace hybridgv {
-namespace HYBRIDGV_INSTRUCTION_SET {
-
-using namespace math;
+namespace math {
+inline namespace HYBRIDGV_INSTRUCTION_SET {
 
 template <class System>
 using Solutions = std::vector<Point<double, System::kUnknowns>>;
@@ -77,4 +76,5 @@ void addByMonodromy(const Parameters& base, Connect connect, RandomParameters ra
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
+}  // namespace math
 }  // namespace hybridgv
