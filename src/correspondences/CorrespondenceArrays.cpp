@@ -136,6 +136,17 @@ double CorrespondenceArrays::imageSize() const {
   return 2 * *quantile;
 }
 
+double CorrespondenceArrays::imageRadius() const {
+  constexpr double kShare = 0.95, kMostOfQuantile = 2;
+  std::vector<double> radii;
+  for (const RayMatch& match : rays_) radii.push_back(std::hypot(match.u, match.v));
+  for (const PointMatch& match : points_) radii.push_back(std::hypot(match.u, match.v));
+  if (radii.empty()) return 0;
+  const auto quantile = radii.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(radii.size()));
+  std::nth_element(radii.begin(), quantile, radii.end());
+  return std::min(kMostOfQuantile * *quantile, *std::max_element(quantile, radii.end()));
+}
+
 void CorrespondenceArrays::fixUnknownFocalLengths() {
   const double g = imageSize();
   if (!(g > 0)) return;

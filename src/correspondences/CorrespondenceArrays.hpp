@@ -18,7 +18,13 @@ struct Normalization {
   double unit = 1;
 
   Eigen::Vector3d apply(const Eigen::Vector3d& x) const { return (x - centre) / unit; }
-  FocalPose apply(FocalPose pose) const { return pose.position = apply(pose.position), pose; }
+  // `Pose`: a FocalPose, or one with more.
+  template <class Pose>
+  Pose applyTo(Pose pose) const {
+    pose.position = apply(pose.position);
+    return pose;
+  }
+  FocalPose apply(const FocalPose& pose) const { return applyTo(pose); }
   FocalPose undo(FocalPose pose) const { return pose.position = centre + unit * pose.position, pose; }
 };
 
@@ -35,6 +41,10 @@ class CorrespondenceArrays {
   // A rig camera of unknown focal length then has about the width of the query's image as its own. It must not follow the query's
   // focal length: the Sampson error of any data vanishes as that goes to 0, and falls as it grows.
   void fixUnknownFocalLengths();
+
+  // How far image points are from the principal point: the largest distance, but at most twice the 95 % quantile of the distances, so
+  // that a few far away do not decide. 0 without image points.
+  double imageRadius() const;
 
   const Normalization& normalization() const { return normalization_; }
   // In the order in which they were given, normalized.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "hybridgv/distortion.hpp"
 #include "robust/SampleCheck.hpp"
 
 namespace hybridgv {
@@ -24,6 +25,20 @@ constexpr double kUnoptimizedShare = 0.5;
 // A standard deviation of log f below which the linear theory behind it can be relied on.
 constexpr double kSmallDeviation = 0.05;
 
+double chosenOf(const std::vector<double>& values, RandomStream& random) {
+  return values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
+}
+
+template <class Match>
+void undistortAll(double distortion, Match* matches, int count) {
+  if (distortion == 0) return;
+  for (int k = 0; k < count; ++k) {
+    const Eigen::Vector3d point = undistort(distortion, {matches[k].u, matches[k].v, 1});
+    matches[k].u = point[0];
+    matches[k].v = point[1];
+  }
+}
+
 // Correspondences of one group may share errors: the rays of a rig camera; every point is a group of its own.
 JackknifeGroups groupsOf(const CorrespondenceArrays& arrays) {
   JackknifeGroups groups;
@@ -39,13 +54,15 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
     : options_(options),
       start_(start),
       data_(readSearchData(adapter, options)),
+      lens_(makeLens(data_.arrays, options)),
+      estimated_{true, lens_.isUnknown},
       choice_(makeStrategies(options.solvers, data_.sampler)),
       scorer_(data_.arrays, thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, data_.arrays),
               options.scoring),
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
-      significance_(scorer_, chance_, data_.sampler, estimated().parameters(), options.seed),
-      optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated()),
+      significance_(scorer_, chance_, data_.sampler, estimated_.parameters(), options.seed),
+      optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated_, lens_),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()) {
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
@@ -123,14 +140,20 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   correspondences::PointMatch points[kMaxSampleSize];
   for (int k = 0; k < size.rays; ++k) rays[k] = data_.arrays.rays()[static_cast<std::size_t>(sample.rays[k])];
   for (int k = 0; k < size.points; ++k) points[k] = data_.arrays.points()[static_cast<std::size_t>(sample.points[k])];
+  const double distortion = lens_.isUnknown ? chosenOf(lens_.hypotheses, random) : 0;
+  undistortAll(distortion, rays, size.rays);
+  undistortAll(distortion, points, size.points);
   if (isDegenerate(rays, size.rays, points, size.points)) return;
 
   const int found = strategy.solver.solve(rays, points, worker.solutions.data());
-  for (int k = 0; k < found; ++k)
-    considerSolution(worker.solutions[static_cast<std::size_t>(k)], *strategy.solver.id, number, worker);
+  for (int k = 0; k < found; ++k) {
+    QueryPose solution = worker.solutions[static_cast<std::size_t>(k)];
+    solution.distortion = distortion;
+    considerSolution(solution, *strategy.solver.id, number, worker);
+  }
 }
 
-void HybridSearch::considerSolution(const FocalPose& pose, Solver solver, int number, WorkerState& worker) const {
+void HybridSearch::considerSolution(const QueryPose& pose, Solver solver, int number, WorkerState& worker) const {
   if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
   Candidate candidate;
   candidate.number = number;
@@ -247,11 +270,34 @@ bool HybridSearch::isDone() {
   return stopReason_ != sac::StopReason::NotStarted;
 }
 
+// The wide truncations of `refine` can leave a good pose when the distortion is free.
+void HybridSearch::settleAnew(Model& model) const {
+  model.logLikelihood = optimizer_.logLikelihood(model.pose);
+  replaceIfLikelier(optimizer_.settle(model.pose, optimizer_.moreThanChance(model.pose)), model);
+}
+
+// Keeps the distortion only if the data speak for it.
+void HybridSearch::chooseLens() {
+  if (optimizer_.logEvidenceForDistortion(best_.pose) > options_.distortionEvidence) return;
+  estimated_.radial = false;
+  optimizer_.forgetDistortion();
+  significance_.setParameters(estimated_.parameters());
+  best_.pose.distortion = 0;
+  settleAnew(best_);
+  findThresholds(best_);
+  if (!optimizer_.focalLengthIsSure(best_.pose)) {
+    escapeLocalOptimum(best_);
+    findThresholds(best_);
+  }
+}
+
 FinalPose HybridSearch::finish(bool optimize) {
+  if (optimize && estimated_.radial) settleAnew(best_);
   if (optimize && !optimizer_.focalLengthIsSure(best_.pose)) {
     escapeLocalOptimum(best_);
     findThresholds(best_);
   }
+  if (optimize && estimated_.radial) chooseLens();
   FinalPose result = optimizer_.polish(best_.pose, optimize);
   best_.pose = result.pose;
   scorer_.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});

@@ -9,6 +9,7 @@
 
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/ChanceModel.hpp"
+#include "robust/Lens.hpp"
 #include "robust/LocalOptimizer.hpp"
 #include "robust/PoseScorer.hpp"
 #include "robust/SearchData.hpp"
@@ -48,7 +49,7 @@ class HybridSearch {
   const PoseScorer& scorer() const { return scorer_; }
   const SolverChoice& choice() const { return choice_; }
   const SearchData& data() const { return data_; }
-  static constexpr Intrinsics estimated() { return {}; }
+  Intrinsics estimated() const { return estimated_; }
   int iterations() const { return iterations_; }
   int localOptimizations() const { return localOptimizations_; }
   sac::StopReason stopReason() const { return stopReason_; }
@@ -76,13 +77,15 @@ class HybridSearch {
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
-  void considerSolution(const FocalPose& pose, Solver solver, int number, WorkerState& worker) const;
+  void considerSolution(const QueryPose& pose, Solver solver, int number, WorkerState& worker) const;
   void consider(const Model& candidate);
   void compare(const Model& optimized);
   void setThresholds(const Model& model);
   void findThresholds(Model& model);
   void replaceIfLikelier(const QueryPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
+  void settleAnew(Model& model) const;
+  void chooseLens();
   void setBest(const Model& model, bool isSignificant);
   void learnFrom(const Model& model);
   bool isWorthConsidering(const Candidate& candidate);
@@ -95,6 +98,8 @@ class HybridSearch {
   const sac::HybridRansacOptions& options_;
   Clock::time_point start_;
   SearchData data_;
+  Lens lens_;
+  Intrinsics estimated_;
   SolverChoice choice_;
   PoseScorer scorer_;
   ChanceModel chance_;

@@ -30,6 +30,9 @@ constexpr double kDeviationsOfAll = 7;
 constexpr double kClearLoss = 4;
 // A standard deviation of log f for which a pose at another distance is out of reach.
 constexpr double kSureDeviation = 0.05;
+// The errors of truncated least squares count as if their deviation were the truncation, which is several times too much. The prior of
+// the distortion must count less in the same way.
+constexpr double kPriorOfTruncated = 0.05;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
 constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
@@ -100,13 +103,14 @@ void allowForHiddenErrors(double& ray, double& point) {
 }  // namespace
 
 LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
-                               double maxFocalLength, Intrinsics estimated)
+                               double maxFocalLength, Intrinsics estimated, Lens lens)
     : scorer_(scorer),
       chance_(chance),
       groups_(std::move(groups)),
       minFocalLength_(minFocalLength),
       maxFocalLength_(maxFocalLength),
-      estimated_(estimated) {}
+      estimated_(estimated),
+      lens_(std::move(lens)) {}
 
 QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   struct Stage {
@@ -116,9 +120,8 @@ QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}};
   const double ray = scorer_.thresholds().rays, point = scorer_.thresholds().points;
   QueryPose pose = start;
-  for (const Stage& stage : stages)
-    pose = minimized(truncatedLoss(stage.rays * ray), truncatedLoss(stage.points * point), pose, kBothKinds, stage.steps);
-  pose = minimized(truncatedLoss(ray), truncatedLoss(point), pose, moreThanChance(pose), {10, 1e-4});
+  for (const Stage& stage : stages) pose = leastTruncated(stage.rays * ray, stage.points * point, pose, kBothKinds, stage.steps);
+  pose = leastTruncated(ray, point, pose, moreThanChance(pose), {10, 1e-4});
   return settle(pose, moreThanChance(pose));
 }
 
@@ -130,7 +133,7 @@ QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, 
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
     const Noise at = noise(squaredErrors(pose, kinds));
-    pose = minimized(at.rays.loss(), at.points.loss(), pose, kinds, steps);
+    pose = minimize(problem(at.rays.loss(), at.points.loss(), kinds), pose, limits(steps)).pose;
   }
   return pose;
 }
@@ -202,7 +205,8 @@ bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
   const Kinds kinds = moreThanChance(final.pose);
   const auto logLikelihoodAt = [&](const QueryPose& pose) {
     const SquaredErrors errors = squaredErrors(pose, kinds);
-    return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points);
+    return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) -
+           lens_.prior.cost(pose.distortion) / 2;
   };
   LeastSquaresProblem atFixedFocalLength = problem(final.noise.rays.loss(), final.noise.points.loss(), kinds);
   atFixedFocalLength.estimated.focalLength = false;
@@ -232,9 +236,11 @@ QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const
   return result;
 }
 
-QueryPose LocalOptimizer::minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const QueryPose& start,
-                                    const Kinds& kinds, const Steps& steps) const {
-  return minimize(problem(rayLoss, pointLoss, kinds), start, limits(steps)).pose;
+QueryPose LocalOptimizer::leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
+                                         const Steps& steps) const {
+  LeastSquaresProblem truncated = problem(truncatedLoss(rayLimit), truncatedLoss(pointLimit), kinds);
+  truncated.distortionPrior.factor = kPriorOfTruncated;
+  return minimize(truncated, start, limits(steps)).pose;
 }
 
 LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
@@ -243,12 +249,15 @@ LeastSquaresOptions LocalOptimizer::limits(const Steps& steps) const {
   options.minRelativeDecrease = steps.minDecrease;
   options.minFocalLength = minFocalLength_;
   options.maxFocalLength = maxFocalLength_;
+  options.minDistortion = lens_.least;
+  options.maxDistortion = lens_.largest;
   return options;
 }
 
 LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const {
   LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss, estimated_);
   result.kinds = kinds;
+  result.distortionPrior = lens_.prior;
   return result;
 }
 
@@ -313,7 +322,17 @@ LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Ki
 double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
   const SquaredErrors errors = squaredErrors(pose, kBothKinds);
   const Noise at = noise(errors);
-  return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points);
+  return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points) - lens_.prior.cost(pose.distortion) / 2;
+}
+
+double LocalOptimizer::logEvidenceForDistortion(const QueryPose& pose) const {
+  const Kinds kinds = moreThanChance(pose);
+  const Noise at = finalNoise(squaredErrors(pose, kinds));
+  ParameterMatrix covariance;
+  if (!invertInformation(information(likelierInliers(at, kinds), pose), covariance))
+    return -std::numeric_limits<double>::infinity();
+  const Eigen::Index last = covariance.rows() - 1;
+  return logEvidence(pose.distortion, std::sqrt(covariance(last, last)), lens_.prior);
 }
 
 FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {

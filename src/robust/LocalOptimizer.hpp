@@ -5,6 +5,7 @@
 #include "robust/ErrorMixture.hpp"
 #include "robust/Jackknife.hpp"
 #include "robust/LeastSquares.hpp"
+#include "robust/Lens.hpp"
 #include "robust/Levers.hpp"
 #include "robust/PoseScorer.hpp"
 
@@ -27,7 +28,7 @@ class LocalOptimizer {
  public:
   // The scorer and the chance model must outlive the optimizer. `groups`: of correspondences that share errors.
   LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
-                 double maxFocalLength, Intrinsics estimated = {});
+                 double maxFocalLength, Intrinsics estimated = {}, Lens lens = {});
 
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
   // wide, because a solution from noisy points is far from most viewing rays, and narrows down to the thresholds.
@@ -46,6 +47,10 @@ class LocalOptimizer {
   QueryPose atDistance(const QueryPose& pose, double factor) const;
   // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const QueryPose& pose) const;
+  // logEvidence for the distortion of this optimum of the likelihood; -infinity if its inliers do not fix the pose.
+  double logEvidenceForDistortion(const QueryPose& pose) const;
+  // From now on poses have no distortion.
+  void forgetDistortion() { estimated_.radial = false; }
   // The kinds with more inliers than a wrong pose has; both if none has.
   Kinds moreThanChance(const QueryPose& pose) const;
 
@@ -62,8 +67,9 @@ class LocalOptimizer {
     int iterations;
     double minDecrease;
   };
-  QueryPose minimized(const KindLoss& rayLoss, const KindLoss& pointLoss, const QueryPose& start, const Kinds& kinds,
-                      const Steps& steps) const;
+  // Of errors that are truncated at these limits [px].
+  QueryPose leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
+                           const Steps& steps) const;
   QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
   // The same with narrowed losses of the rays, and without those that are refused.
   QueryPose withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
@@ -80,6 +86,7 @@ class LocalOptimizer {
   JackknifeGroups groups_;
   double minFocalLength_, maxFocalLength_;
   Intrinsics estimated_;
+  Lens lens_;
 };
 
 }  // namespace robust

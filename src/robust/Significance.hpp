@@ -25,6 +25,8 @@ class Significance {
   // The scorer, the chance model and the sampler must outlive the object. `parameters`: of a pose, as they are fitted to its inliers.
   Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, int parameters, std::uint64_t seed);
 
+  // As above, from now on.
+  void setParameters(int parameters) { parameters_ = parameters; }
   // Tells how many samples have been drawn so far.
   void setSamples(int samples);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hybridgv/distortion.hpp"
 #include "robust/HybridSearch.hpp"
 
 namespace hybridgv {
@@ -41,6 +42,47 @@ void setCovariance(const robust::ParameterMatrix& normalized, double unit, robus
       result.pose.focalLength * std::sqrt(robust::varianceOfLogFocalLength(covariance, estimated));
 }
 
+// Distances of the inliers' image points from the principal point.
+std::vector<double> inlierRadii(const robust::SearchData& data, const HybridRansacResult& result) {
+  std::vector<double> radii;
+  const auto add = [&](const auto& matches, const std::vector<int>& indices, const std::vector<char>& inliers) {
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      if (inliers[static_cast<std::size_t>(indices[i])] != 0) radii.push_back(std::hypot(matches[i].u, matches[i].v));
+  };
+  add(data.arrays.rays(), data.rayIndices, result.inliers2d2d);
+  add(data.arrays.points(), data.pointIndices, result.inliers2d3d);
+  return radii;
+}
+
+// k1 depends on the distortion c by a slope, which is taken from a difference, and on the focal length by its square. `covariance`
+// ends with log f and c.
+double deviationOfK1(const HybridRansacResult& result, const std::vector<double>& radii,
+                     const robust::ParameterMatrix& covariance) {
+  const Eigen::Index c = covariance.rows() - 1, logF = c - 1;
+  const double step = 0.01 * std::sqrt(covariance(c, c)), f = result.pose.focalLength;
+  const double byDistortion =
+      (toSimpleRadial(f, result.distortion + step, radii).k1 - toSimpleRadial(f, result.distortion - step, radii).k1) /
+      (2 * step);
+  const double byLogF = 2 * result.simpleRadialK1;
+  return std::sqrt(std::max(byDistortion * byDistortion * covariance(c, c) + 2 * byDistortion * byLogF * covariance(c, logF) +
+                                byLogF * byLogF * covariance(logF, logF),
+                            0.));
+}
+
+// After the masks.
+void setLens(const robust::HybridSearch& search, const robust::FinalPose& final, HybridRansacResult& result) {
+  const std::vector<double> radii = inlierRadii(search.data(), result);
+  result.distortion = final.pose.distortion;
+  const SimpleRadial model = toSimpleRadial(result.pose.focalLength, result.distortion, radii);
+  result.simpleRadialFocalLength = model.focalLength;
+  result.simpleRadialK1 = model.k1;
+  if (!search.estimated().radial) return;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Eigen::Index last = final.covariance.rows() - 1;
+  result.distortionStandardDeviation = final.isRegular ? std::sqrt(final.covariance(last, last)) : infinity;
+  result.simpleRadialK1StandardDeviation = final.isRegular ? deviationOfK1(result, radii, final.covariance) : infinity;
+}
+
 void setStatistics(const robust::HybridSearch& search, HybridRansacResult& result) {
   result.iterations = search.iterations();
   result.localOptimizations = search.localOptimizations();
@@ -59,6 +101,7 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   result.solver = search.best().solver;
   setMasks(search, result);
   takeOut(final.refusedRays, search.data().rayIndices, result);
+  setLens(search, final, result);
   if (final.isRegular) setCovariance(final.covariance, normalization.unit, search.estimated(), result);
   result.failureReason = search.verdict(final);
   result.success = result.failureReason == FailureReason::None;

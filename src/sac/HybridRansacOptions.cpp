@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "CheckArguments.hpp"
 #include "hybridgv/detail/format.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/Lens.hpp"
 #include "solvers/MinimalProblems.hpp"
 
 namespace hybridgv {
@@ -46,6 +48,15 @@ void HybridRansacOptions::check() const {
   require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength,
           ("greater than minFocalLength (" + detail::format(minFocalLength) + ")").c_str());
   require(positiveFinite(maxFocalLengthDeviation), "maxFocalLengthDeviation", maxFocalLengthDeviation, "positive and finite");
+  requireListed({QueryCamera::Pinhole, QueryCamera::Radial}, "queryCamera", queryCamera);
+  require(imageRadiusPx >= 0 && std::isfinite(imageRadiusPx), "imageRadiusPx", imageRadiusPx, "finite and not negative");
+  require(positiveFinite(distortionScale), "distortionScale", distortionScale, "positive and finite");
+  require(distortionEvidence < std::numeric_limits<double>::infinity(), "distortionEvidence", distortionEvidence,
+          "a number below infinity");
+  if (distortionHypotheses.empty()) throwInvalid("options.distortionHypotheses", "empty");
+  for (const double hypothesis : distortionHypotheses)
+    require(hypothesis > robust::kLeastDistortion && hypothesis < robust::kLargestDistortion, "distortionHypotheses", hypothesis,
+            "between -0.7 and 0.3");
   require(threads >= 0, "threads", threads, "0 (all cores) or positive");
   if (solvers.empty() && !initialPose) throwInvalid("options.solvers", "empty, and there is no initialPose");
   for (const SolverPrior& entry : solvers) requireListed(allSolvers(), "solvers", entry.solver);

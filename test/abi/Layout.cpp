@@ -6,6 +6,7 @@
 #include "hybridgv/adapters/sfm/FileError.hpp"
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
+#include "hybridgv/distortion.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 #include "hybridgv/sac_problems/hybrid_pose/HybridProblemCore.hpp"
@@ -26,6 +27,7 @@ static constexpr LayoutEntry kEntries[] = {
     HYBRIDGV_ENTRY(FocalPose),
     HYBRIDGV_ENTRY(FocalPoses),
     HYBRIDGV_ENTRY(NoncentralHybridAdapter),
+    HYBRIDGV_ENTRY(SimpleRadial),
     HYBRIDGV_ENTRY(hybrid_pose::HybridAdapterBase),
     HYBRIDGV_ENTRY(hybrid_pose::NonlinearResult),
     HYBRIDGV_ENTRY(sac::HybridRansacOptions),

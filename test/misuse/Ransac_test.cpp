@@ -26,6 +26,14 @@ TEST(Misuse, RansacRefusesWrongOptions) {
       {"minFocalLength", {kNaN, kInfinite, -kInfinite, -1}, [](auto& o, double v) { o.minFocalLength = v; }},
       {"maxFocalLength", {kNaN, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxFocalLength = v; }},
       {"maxFocalLength", {500, 1000}, [](auto& o, double v) { o.minFocalLength = 1000, o.maxFocalLength = v; }},
+      {"imageRadiusPx", {kNaN, kInfinite, -kInfinite, -1}, [](auto& o, double v) { o.imageRadiusPx = v; }},
+      {"distortionScale", {kNaN, kInfinite, 0, -1}, [](auto& o, double v) { o.distortionScale = v; }},
+      {"distortionEvidence", {kNaN, kInfinite}, [](auto& o, double v) { o.distortionEvidence = v; }},
+      {"distortionHypotheses",
+       {kNaN, -0.7, 0.3, -1, kInfinite},
+       [](auto& o, double v) {
+         o.distortionHypotheses = {0, v};
+       }},
       {"threads", {-1}, [](auto& o, double v) { o.threads = static_cast<int>(v); }},
       {"prior", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.solvers[2].prior = v; }},
   };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "HybridScene.hpp"
+#include "WideScene.hpp"
 #include "robust/Leverage.hpp"
 
 namespace hybridgv {
@@ -147,6 +148,58 @@ TEST(ParameterMatrix, FollowsTheUnitOfThePositions) {
   EXPECT_EQ(matrix(4, 5), 9);
   EXPECT_EQ(matrix(6, 3), 3);
   EXPECT_EQ(matrix(6, 6), 1);
+}
+
+constexpr Intrinsics kUnknownLens{true, true};
+
+// Scenes that fill the image, as a lens of the division model sees them.
+struct WideData {
+  WideData(test::Random& random, double distortion, double noise) : scene(make(random, distortion, noise)) {}
+  static test::HybridScene make(test::Random& random, double distortion, double noise) {
+    test::WideSceneOptions options;
+    options.lens = test::divisionLens(distortion);
+    options.imageNoise = noise;
+    options.rays = options.points = 40;
+    return test::makeWideScene(random, options);
+  }
+  CorrespondenceArrays arrays() const {
+    return {scene.adapter(), correspondences::allIndices(scene.bearings.size()),
+            correspondences::allIndices(scene.points.size())};
+  }
+  test::HybridScene scene;
+};
+
+TEST(LeastSquares, FindsTheDistortionOfExactData) {
+  test::Random random(test::testSeed(), 145);
+  for (const double distortion : {-6e-7, -1e-7, 0., 2e-7}) {
+    const WideData data(random, distortion, 0);
+    const CorrespondenceArrays arrays = data.arrays();
+    const QueryPose start = arrays.normalization().apply(test::perturbed(random, data.scene.truth, 0.01, 0.02, 0.01));
+    const LeastSquaresResult result = minimize(makeProblem(arrays, {}, {}, kUnknownLens), start);
+    EXPECT_TRUE(result.converged);
+    EXPECT_NEAR(result.pose.distortion, distortion, 1e-12);
+    EXPECT_NEAR(result.pose.focalLength, data.scene.truth.focalLength, 1e-5 * data.scene.truth.focalLength);
+    EXPECT_EQ(result.information.rows(), kUnknownLens.parameters());
+  }
+}
+
+TEST(LeastSquares, ThePriorDrawsTheDistortionTowardsZeroAndTheBoundsHold) {
+  test::Random random(test::testSeed(), 146);
+  const double distortion = -3e-7;
+  const WideData data(random, distortion, 1);
+  const CorrespondenceArrays arrays = data.arrays();
+  const QueryPose start = arrays.normalization().apply(data.scene.truth);
+  LeastSquaresProblem problem = makeProblem(arrays, {}, {}, kUnknownLens);
+  const double free = minimize(problem, start).pose.distortion;
+  problem.distortionPrior.scale = 1e-9;
+  const LeastSquaresResult drawn = minimize(problem, start);
+  EXPECT_GT(drawn.pose.distortion, free);
+  EXPECT_LT(drawn.pose.distortion, 0);
+  problem.distortionPrior = {};
+  LeastSquaresOptions options;
+  options.minDistortion = -1e-7;
+  options.maxDistortion = 1e-7;
+  EXPECT_EQ(minimize(problem, start, options).pose.distortion, options.minDistortion);
 }
 
 }  // namespace

@@ -36,6 +36,17 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   /// all correspondences share, such as those of the principal point, do not. All infinite if the inliers do not fix the pose.
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
+
+  /// Of the division model, undistorted = (u, v) / (1 + distortion (u^2 + v^2)) [1/px^2], to which pose.focalLength belongs; see
+  /// distortion.hpp. 0 if options.queryCamera is Pinhole, and if the data do not speak for distortion.
+  double distortion = 0;
+  double distortionStandardDeviation = 0;  ///< [1/px^2]; 0 if there is no distortion
+  /// The same lens as COLMAP's SIMPLE_RADIAL, fitted where the inliers are: to compare with a focal length from there, use this. It
+  /// has the same relative standard deviation as pose.focalLength. Without distortion it is pose.focalLength; 0 without a model.
+  double simpleRadialFocalLength = 0;
+  double simpleRadialK1 = 0;                   ///< k1; 0 without distortion
+  double simpleRadialK1StandardDeviation = 0;  ///< 0 without distortion
+
   double noise2d2d = 0;  ///< [px] standard deviation of the Sampson errors of what is more likely an inlier than an outlier
   double noise2d3d = 0;  ///< [px] the same of the reprojection errors, for each of the two coordinates
 

@@ -34,6 +34,12 @@ enum class Sampling {
   QualityOrdered,  ///< correspondences with larger weights first (PROSAC), where the adapter's weights differ; else Uniform
 };
 
+/// What is unknown of the query camera beside its focal length.
+enum class QueryCamera {
+  Pinhole,  ///< nothing: image points are undistorted
+  Radial,   ///< one parameter of radial distortion: image points are raw pixels, relative to the principal point
+};
+
 /// What hybridRansac may do. Every length is in pixels of the query image (that is, in the unit of the adapter's image points),
 /// nothing is squared.
 struct HYBRIDGV_EXPORT HybridRansacOptions {
@@ -57,6 +63,20 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// A success needs a standard deviation of the focal length below this share of it, also without the rays that have most
   /// influence on it.
   double maxFocalLengthDeviation = 0.3;
+
+  /// Radial estimates the lens distortion too, and keeps it if the data speak for it; pixels must be square. Map images and rays of the
+  /// rig are free of distortion in either case.
+  QueryCamera queryCamera = QueryCamera::Pinhole;
+  /// [px] Half the image's diagonal, the unit of what follows: a distortion of the division model (distortion.hpp) is lambda / radius^2.
+  /// 0, or if image points are farther from the principal point: the largest distance of one (but at most twice their 95 % quantile).
+  double imageRadiusPx = 0;
+  double distortionScale = 0.05;  ///< of lambda before anything is seen: it is Cauchy distributed about 0
+  /// Natural log of the odds that are needed to keep the distortion, otherwise the result is that of a pinhole camera. -infinity keeps
+  /// it always, which is better where the lens is known to have distortion and matches are few (below 20 of each kind).
+  double distortionEvidence = 1;
+  /// Each sample is undistorted by one of these lambdas, all equally likely, before it is solved. They must be in (-0.7, 0.3), within
+  /// which lambda is estimated. Lenses between them and somewhat beyond are found.
+  std::vector<double> distortionHypotheses = {0, -0.1, -0.25};
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself.
   std::vector<SolverPrior> solvers = defaultSolvers();
