@@ -331,8 +331,7 @@ double LocalOptimizer::logEvidenceForDistortion(const QueryPose& pose) const {
   ParameterMatrix covariance;
   if (!invertInformation(information(likelierInliers(at, kinds), pose), covariance))
     return -std::numeric_limits<double>::infinity();
-  const Eigen::Index last = covariance.rows() - 1;
-  return logEvidence(pose.distortion, std::sqrt(covariance(last, last)), lens_.prior);
+  return logEvidence(pose.distortion, std::sqrt(varianceOfDistortion(covariance)), lens_.prior);
 }
 
 FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {

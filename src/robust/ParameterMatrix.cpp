@@ -54,6 +54,19 @@ FocalPoseMatrix toFocalPoseMatrix(const ParameterMatrix& matrix, Intrinsics esti
   return result;
 }
 
+ParameterMatrix informationWithoutDistortion(const ParameterMatrix& information) {
+  const Eigen::Index last = information.rows() - 1;
+  const double ofDistortion = information(last, last);
+  if (!(ofDistortion > 0)) return information.topLeftCorner(last, last);
+  return information.topLeftCorner(last, last) -
+         information.col(last).head(last) * information.row(last).head(last) / ofDistortion;
+}
+
+double varianceOfDistortion(const ParameterMatrix& covariance) {
+  const Eigen::Index last = covariance.rows() - 1;
+  return covariance(last, last);
+}
+
 double varianceOfLogFocalLength(const ParameterMatrix& covariance, Intrinsics estimated) {
   return estimated.focalLength ? covariance(kPoseParameters, kPoseParameters) : 0;
 }

@@ -29,6 +29,11 @@ ParameterMatrix withPositionsTimes(double factor, ParameterMatrix matrix);
 // marginal one.
 FocalPoseMatrix toFocalPoseMatrix(const ParameterMatrix& matrix, Intrinsics estimated);
 
+// The information about the other parameters where the distortion, the last one, is unknown: the inverse of their covariance.
+ParameterMatrix informationWithoutDistortion(const ParameterMatrix& information);
+
+double varianceOfDistortion(const ParameterMatrix& covariance);
+
 // Where the focal length is not estimated, its logarithm has the variance 0.
 double varianceOfLogFocalLength(const ParameterMatrix& covariance, Intrinsics estimated);
 

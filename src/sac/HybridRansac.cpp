@@ -78,8 +78,7 @@ void setLens(const robust::HybridSearch& search, const robust::FinalPose& final,
   result.simpleRadialK1 = model.k1;
   if (!search.estimated().radial) return;
   const double infinity = std::numeric_limits<double>::infinity();
-  const Eigen::Index last = final.covariance.rows() - 1;
-  result.distortionStandardDeviation = final.isRegular ? std::sqrt(final.covariance(last, last)) : infinity;
+  result.distortionStandardDeviation = final.isRegular ? std::sqrt(robust::varianceOfDistortion(final.covariance)) : infinity;
   result.simpleRadialK1StandardDeviation = final.isRegular ? deviationOfK1(result, radii, final.covariance) : infinity;
 }
 

@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "FocalPoseNear.hpp"
-#include "HybridScene.hpp"
+#include "WideScene.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 
@@ -149,11 +150,69 @@ TEST(OptimizeNonlinear, UsesTheGivenCorrespondencesOnly) {
   EXPECT_TRUE(test::isFocalPoseNear(result.pose, data.truth, 1e-6));
 }
 
+HybridScene wideScene(test::Random& random, double distortion, double noise) {
+  test::WideSceneOptions options;
+  options.rays = options.points = 40;
+  options.imageNoise = noise;
+  options.lens = test::divisionLens(distortion);
+  return test::makeWideScene(random, options);
+}
+
+TEST(OptimizeNonlinear, FindsTheDistortionOfExactImages) {
+  test::Random random(test::testSeed(), 29);
+  for (const double distortion : {-6e-7, -5e-8, 0., 2e-7}) {
+    const HybridScene data = wideScene(random, distortion, 0);
+    const FocalPose start = test::perturbed(random, data.truth, 0.01, 0.1, 0.01);
+    const NonlinearResult result = optimize_nonlinear(data.adapter(), start, 0);
+    EXPECT_TRUE(result.converged);
+    EXPECT_TRUE(test::isFocalPoseNear(result.pose, data.truth, 1e-5));
+    EXPECT_NEAR(result.distortion, distortion, 1e-11);
+    EXPECT_EQ(optimize_nonlinear(data.adapter(), data.truth).distortion, 0);
+  }
+}
+
+TEST(OptimizeNonlinear, DeviationsWithDistortionAreThoseOfTheErrors) {
+  test::Random random(test::testSeed(), 30);
+  const double noise = 0.5, distortion = -2e-7;
+  double ofFocalLength = 0, ofDistortion = 0;
+  const int count = 200;
+  for (int i = 0; i < count; ++i) {
+    const HybridScene data = wideScene(random, distortion, noise);
+    const NonlinearResult result = optimize_nonlinear(data.adapter(), data.truth, distortion);
+    ofFocalLength +=
+        std::pow((result.pose.focalLength - data.truth.focalLength) / (noise * result.focalLengthStandardDeviation), 2);
+    ofDistortion += std::pow((result.distortion - distortion) / (noise * result.distortionStandardDeviation), 2);
+  }
+  EXPECT_NEAR(ofFocalLength / count, 1, 0.35);
+  EXPECT_NEAR(ofDistortion / count, 1, 0.35);
+}
+
+// That of the seven parameters for unknown distortion: its inverse has the variance of log f.
+TEST(OptimizeNonlinear, InformationWithDistortionIsMarginal) {
+  test::Random random(test::testSeed(), 31);
+  const HybridScene data = wideScene(random, -2e-7, 1);
+  const NonlinearResult result = optimize_nonlinear(data.adapter(), data.truth, 0);
+  const Eigen::Map<const Eigen::Matrix<double, 7, 7>> information(result.information.data());
+  const double variance = information.inverse()(6, 6);
+  const double relative = result.focalLengthStandardDeviation / result.pose.focalLength;
+  EXPECT_NEAR(std::sqrt(variance), relative, 1e-6 * relative);
+}
+
+TEST(OptimizeNonlinear, AStartFromWhichAnImagePointSeesNothingIsReturned) {
+  test::Random random(test::testSeed(), 32);
+  const HybridScene data = wideScene(random, -1e-7, 0);
+  const NonlinearResult result = optimize_nonlinear(data.adapter(), data.truth, -1e-4);
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.cost, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(result.pose.focalLength, data.truth.focalLength);
+}
+
 TEST(OptimizeNonlinear, WrongCallsAreRefused) {
   test::Random random(test::testSeed(), 28);
   const HybridScene data = scene(random, 10, 10, 0);
   const NoncentralHybridAdapter adapter = data.adapter();
   EXPECT_THROW(optimize_nonlinear(adapter, {{0, 1, 2}}, data.truth), std::invalid_argument);
+  for (const double wrong : {NAN, -INFINITY}) EXPECT_THROW(optimize_nonlinear(adapter, data.truth, wrong), std::invalid_argument);
   EXPECT_THROW(optimize_nonlinear(adapter, {{0, 1, 10}, {0, 1, 2, 3}}, data.truth), std::invalid_argument);
   EXPECT_THROW(optimize_nonlinear(adapter, {{0, 1, 1}, {0, 1, 2, 3}}, data.truth), std::invalid_argument);
   EXPECT_THROW(optimize_nonlinear(adapter, {{}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 0}}, data.truth), std::invalid_argument);

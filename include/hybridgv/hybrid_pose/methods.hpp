@@ -106,7 +106,7 @@ HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter, const std::vec
 /// H51f on the adapter's first five 2D-2D correspondences and its first 2D-3D correspondence.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter);
 
-/// Result of optimize_nonlinear.
+/// Result of optimize_nonlinear. What it says of the distortion is 0 unless that was estimated.
 struct HYBRIDGV_EXPORT NonlinearResult {
   FocalPose pose;          ///< the local minimum
   bool converged = false;  ///< false: the data do not fix the pose, or the iterations were used up
@@ -117,6 +117,8 @@ struct HYBRIDGV_EXPORT NonlinearResult {
   std::array<double, 49> information{};
   /// Standard deviation of the focal length [px] for residuals of 1 px standard deviation; infinite if the data do not fix it.
   double focalLengthStandardDeviation = 0;
+  double distortion = 0;                   ///< of the division model [1/px^2] (distortion.hpp), to which pose.focalLength belongs
+  double distortionStandardDeviation = 0;  ///< [1/px^2], as that of the focal length
 };
 
 /// Levenberg-Marquardt on rotation, position and log focal length: a local minimum of
@@ -138,6 +140,20 @@ HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adap
                                                    const FocalPose& initial);
 /// The optimization over all correspondences of the adapter.
 HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial);
+
+/// The same with the radial distortion of the query's image as an eighth parameter: image points are raw pixels, relative to the
+/// principal point, and residuals are errors in the distorted image (residuals.hpp).
+///
+/// \param initialDistortion  where to start, 0 as a rule [1/px^2]. The distortion stays between -0.7 and 0.3 over the square of the
+///                           largest distance of an image point from the principal point, or between that and the start.
+/// \return as above, with eight equations at least; `information` is that of the seven other parameters for unknown distortion. A
+///         start for which 1 + initialDistortion (u^2 + v^2) <= 0 at an image point of a 2D-2D correspondence has infinite cost.
+/// \throws std::invalid_argument also for an initialDistortion that is not finite
+HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
+                                                   const FocalPose& initial, double initialDistortion);
+/// The optimization with distortion over all correspondences of the adapter.
+HYBRIDGV_EXPORT NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial,
+                                                   double initialDistortion);
 
 }  // namespace hybrid_pose
 }  // namespace hybridgv
