@@ -9,7 +9,8 @@ math
 math/roots math/dixon math/homotopy
 correspondences
 solvers
-solvers/three_points solvers/one_centre solvers/h32f solvers/h51f
+solvers/complex_rays
+solvers/three_points solvers/one_centre solvers/h32f solvers/h51f solvers/h70f
 robust/kernels
 robust
 hybrid_pose

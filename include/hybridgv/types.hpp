@@ -72,6 +72,7 @@ enum class Solver {
   H13f,   ///< 1 2D-2D and 3 2D-3D, at most 12 solutions
   H32f,   ///< 3 2D-2D and 2 2D-3D, at most 26 solutions
   H51f,   ///< 5 2D-2D and 1 2D-3D, at most 56 solutions (9 if the five rays share one centre)
+  H70f,   ///< 7 2D-2D, at most 118 solutions (9 if six of the rays share one centre)
 };
 
 /// All of them, in the order of the enumerators.

@@ -7,7 +7,7 @@ namespace hybrid_pose {
 
 using solvers::rowsOf;
 
-constexpr solvers::SolverRows kH13f = rowsOf("h13f"), kH32f = rowsOf("h32f"), kH51f = rowsOf("h51f");
+constexpr solvers::SolverRows kH13f = rowsOf("h13f"), kH32f = rowsOf("h32f"), kH51f = rowsOf("h51f"), kH70f = rowsOf("h70f");
 
 FocalPoses h13f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
   return solve(kH13f, adapter, indices);
@@ -23,6 +23,11 @@ FocalPoses h51f(const HybridAdapterBase& adapter, const std::vector<std::vector<
   return solve(kH51f, adapter, indices);
 }
 FocalPoses h51f(const HybridAdapterBase& adapter) { return solve(kH51f, adapter); }
+
+FocalPoses h70f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
+  return solve(kH70f, adapter, indices);
+}
+FocalPoses h70f(const HybridAdapterBase& adapter) { return solve(kH70f, adapter); }
 
 }  // namespace hybrid_pose
 }  // namespace hybridgv

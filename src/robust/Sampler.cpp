@@ -54,7 +54,10 @@ void Sampler::listCameras() {
 bool Sampler::canDraw(const SampleSize& sample) const {
   if (sample.rays > kMaxSampleSize || sample.points > kMaxSampleSize) return false;
   if (size(pointOrder_) < sample.points || size(rayOrder_) < sample.rays) return false;
-  return sample.rayDraw != RayDraw::OneCamera || sample.rays == 0 || !camerasWith(sample.rays).cameras.empty();
+  if (sample.rays == 0) return true;
+  if (sample.rayDraw == RayDraw::OneCamera) return !camerasWith(sample.rays).cameras.empty();
+  if (sample.rayDraw == RayDraw::AllButOne) return !camerasWith(sample.rays - 1).cameras.empty() && numberCameras() > 1;
+  return true;
 }
 
 int Sampler::poolSize(int available, int sampleSize, int number) const {
@@ -72,7 +75,10 @@ DrawnSample Sampler::draw(const SampleSize& wanted, int number, RandomStream& ra
       drawDifferent(rayOrder_, poolSize(size(rayOrder_), total, number), wanted.rays, random, sample.rays);
       break;
     case RayDraw::OneCamera:
-      drawOneCamera(wanted.rays, number, random, sample.rays);
+      if (wanted.rays > 0) drawOneCamera(wanted.rays, number, random, sample.rays);
+      break;
+    case RayDraw::AllButOne:
+      drawAllButOne(wanted.rays, number, random, sample.rays);
       break;
     case RayDraw::Spread:
       drawSpread(wanted.rays, number, random, sample.rays);
@@ -81,13 +87,30 @@ DrawnSample Sampler::draw(const SampleSize& wanted, int number, RandomStream& ra
   return sample;
 }
 
-void Sampler::drawOneCamera(int count, int number, RandomStream& random, int* sample) const {
-  if (count == 0) return;
+int Sampler::drawOneCamera(int count, int number, RandomStream& random, int* sample) const {
   const CameraList& list = camerasWith(count);
   const int chosen = random.below(list.raysUpTo.back());
   const auto place = std::upper_bound(list.raysUpTo.begin(), list.raysUpTo.end(), chosen) - list.raysUpTo.begin();
-  const std::vector<int>& rays = raysOf(list.cameras[static_cast<std::size_t>(place)]);
+  const int camera = list.cameras[static_cast<std::size_t>(place)];
+  const std::vector<int>& rays = raysOf(camera);
   drawDifferent(rays, poolSize(size(rays), count + 1, number), count, random, sample);
+  return camera;
+}
+
+void Sampler::drawAllButOne(int count, int number, RandomStream& random, int* sample) const {
+  const int camera = drawOneCamera(count - 1, number, random, sample);
+  sample[count - 1] = drawOfOthers(camera, random);
+}
+
+// The rays in the order of their cameras, without those of one.
+int Sampler::drawOfOthers(int camera, RandomStream& random) const {
+  const std::vector<int>& raysUpTo = camerasWith(1).raysUpTo;
+  const int left = size(raysOf(camera)), before = raysUpTo[static_cast<std::size_t>(camera)] - left;
+  int chosen = random.below(numberRays() - left);
+  if (chosen >= before) chosen += left;
+  const auto other = std::upper_bound(raysUpTo.begin(), raysUpTo.end(), chosen) - raysUpTo.begin();
+  const std::vector<int>& rays = raysOf(static_cast<int>(other));
+  return rays[static_cast<std::size_t>(chosen - (raysUpTo[static_cast<std::size_t>(other)] - size(rays)))];
 }
 
 // Round by round: every camera that has rays left gives one, in the last round a random subset of them does.
@@ -115,22 +138,38 @@ double Sampler::allInlierProbability(const SampleSize& wanted, const InlierCount
       return points * hypergeometricAll(size(rayOrder_), inliers.rays, wanted.rays);
     case RayDraw::OneCamera:
       return points * oneCameraProbability(wanted.rays, inliers);
+    case RayDraw::AllButOne:
+      return points * allButOneProbability(wanted.rays, inliers);
     case RayDraw::Spread:
       return points * spreadProbability(wanted.rays, inliers);
   }
   return 0;
 }
 
-double Sampler::oneCameraProbability(int count, const InlierCounts& inliers) const {
+// The mean of a probability over the cameras that a set of `count` rays of one camera may come from.
+template <class Probability>
+double Sampler::meanOverCameras(int count, Probability probability) const {
   double sum = 0;
   int total = 0;
   for (std::size_t camera = 0; camera < raysOfCamera_.size(); ++camera) {
     const int rays = size(raysOfCamera_[camera]);
     if (rays < count) continue;
-    sum += rays * hypergeometricAll(rays, inliers.raysPerCamera[camera], count);
+    sum += rays * probability(camera);
     total += rays;
   }
   return total > 0 ? sum / total : 0;
+}
+
+double Sampler::oneCameraProbability(int count, const InlierCounts& inliers) const {
+  return meanOverCameras(
+      count, [&](std::size_t camera) { return hypergeometricAll(numberRays(camera), inliers.raysPerCamera[camera], count); });
+}
+
+double Sampler::allButOneProbability(int count, const InlierCounts& inliers) const {
+  return meanOverCameras(count - 1, [&](std::size_t camera) {
+    const int good = inliers.raysPerCamera[camera], others = numberRays() - numberRays(camera);
+    return hypergeometricAll(numberRays(camera), good, count - 1) * hypergeometricAll(others, inliers.rays - good, 1);
+  });
 }
 
 // In the last round a random subset of m of the K cameras that have rays left gives a ray each. With h the probability that the

@@ -65,9 +65,15 @@ class Sampler {
   const std::vector<int>& raysOf(int camera) const { return raysOfCamera_[static_cast<std::size_t>(camera)]; }
 
   int poolSize(int available, int sampleSize, int number) const;
-  void drawOneCamera(int count, int number, RandomStream& random, int* sample) const;
+  // Returns the camera, a place in raysOfCamera_.
+  int drawOneCamera(int count, int number, RandomStream& random, int* sample) const;
+  void drawAllButOne(int count, int number, RandomStream& random, int* sample) const;
+  int drawOfOthers(int camera, RandomStream& random) const;
   void drawSpread(int count, int number, RandomStream& random, int* sample) const;
+  template <class Probability>
+  double meanOverCameras(int count, Probability probability) const;
   double oneCameraProbability(int count, const InlierCounts& inliers) const;
+  double allButOneProbability(int count, const InlierCounts& inliers) const;
   double spreadProbability(int count, const InlierCounts& inliers) const;
 
   std::vector<int> rayOrder_, pointOrder_;

@@ -5,9 +5,20 @@
 namespace hybridgv {
 namespace solvers {
 
+// The number of rays of the camera that has most.
+static int mostOfOneCamera(const RayMatch* rays, int count) {
+  int most = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto isOfSame = [&](const RayMatch& ray) { return ray.camera == rays[i].camera; };
+    most = std::max(most, static_cast<int>(std::count_if(rays, rays + count, isOfSame)));
+  }
+  return most;
+}
+
 bool canGive(const MinimalSolver& solver, const RayMatch* rays) {
-  const auto isOfFirstCamera = [rays](const RayMatch& ray) { return ray.camera == rays[0].camera; };
-  return solver.draw != RayDraw::OneCamera || std::all_of(rays, rays + solver.rays, isOfFirstCamera);
+  if (solver.draw == RayDraw::OneCamera) return mostOfOneCamera(rays, solver.rays) == solver.rays;
+  if (solver.draw == RayDraw::AllButOne) return mostOfOneCamera(rays, solver.rays) == solver.rays - 1;
+  return true;
 }
 
 const MinimalSolver* SolverRows::forSample(const RayMatch* rays) const {

@@ -26,6 +26,8 @@ namespace one_centre {
 int h51f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 // Six rays from one centre, no point; the position is returned at distance 1 from that centre.
 int sixptOnefocal(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+// Six rays from one centre, the last from another.
+int h70f(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 }  // namespace one_centre
 
 namespace h32f {
@@ -37,6 +39,11 @@ namespace h51f {
 // Any pattern of shared centres; recognizes it from RayMatch::camera.
 int solve(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 }  // namespace h51f
+
+namespace h70f {
+// Any pattern of shared centres; recognizes it from RayMatch::camera. All seven rays from one centre: nothing.
+int solve(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+}  // namespace h70f
 
 constexpr correspondences::Intrinsics kUnknownFocalLength = {true, false};
 
@@ -52,6 +59,8 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {Solver::H51f,  "h51f",           5, 1, RayDraw::OneCamera,  9, 2.6, 1,   2, false, kUnknownFocalLength, &one_centre::h51f},
     {Solver::H51f,  "h51f",           5, 1, RayDraw::Spread,    56, 220, 1,   2, true,  kUnknownFocalLength, &h51f::solve},
     {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
+    {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   0,   0, false, kUnknownFocalLength, &h70f::solve},
+    {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 0,   0, true,  kUnknownFocalLength, &h70f::solve},
 };
 // clang-format on
 

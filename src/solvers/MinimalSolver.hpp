@@ -26,6 +26,7 @@ using SolveFunction = int (*)(const RayMatch* rays, const PointMatch* points, Fo
 enum class RayDraw {
   Uniform,    // every set of rays is equally likely
   OneCamera,  // all from one camera, drawn with probability proportional to its number of rays
+  AllButOne,  // all but one from one camera, drawn in proportion to its number of rays, and one from any of the others
   Spread,     // from as many cameras as possible, each camera as likely as the other
 };
 

@@ -17,11 +17,13 @@
 
 #include "AwkwardProblems.hpp"
 #include "H51fScenes.hpp"
+#include "H70fScenes.hpp"
 #include "MinimalProblem.hpp"
 #include "OneCentreProblems.hpp"
 #include "SolverConfigurations.hpp"
 #include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/solve.hpp"
+#include "solvers/h70f/solve.hpp"
 
 namespace {
 
@@ -33,8 +35,11 @@ struct Row {
   solvers::SolveFunction solve;
   std::size_t exactPoints;  // points whose reprojection error must vanish
   std::function<MinimalProblem(Random&)> makeProblem;
-  bool tellsCompleteness = false;  // H51f of several centres, solved by the function that counts the ends of its paths
+  // Homotopies: in the place of `solve`, the function that counts the ends of its paths.
+  int (*solveAndCount)(const MinimalProblem& problem, FocalPose* poses, bool* complete) = nullptr;
 };
+
+constexpr solvers::SolveFunction kH51f = &solvers::h51f::solve, kH70f = &solvers::h70f::solve;
 
 int solveH51f(const MinimalProblem& problem, FocalPose* poses, bool* complete) {
   solvers::h51f::EndPoints ends;
@@ -43,16 +48,35 @@ int solveH51f(const MinimalProblem& problem, FocalPose* poses, bool* complete) {
   return found;
 }
 
-// H51f with rays of several centres: the usual scene, or all the others.
-void addH51fRows(bool awkward, std::vector<Row>* rows) {
-  for (const RaysPerCamera& pattern : h51fPatterns()) {
-    const std::string name = "h51f_" + nameOf(pattern);
-    if (!awkward)
-      rows->push_back({name, nullptr, 1, [=](Random& random) { return makeMinimalProblem(random, pattern, 1); }, true});
-    else
-      for (const H51fScene& scene : h51fScenes())
-        rows->push_back(
-            {name + ", " + scene.name, nullptr, 1, [=](Random& random) { return scene.make(random, pattern); }, true});
+int solveH70f(const MinimalProblem& problem, FocalPose* poses, bool* complete) {
+  solvers::h70f::EndPoints ends;
+  const solvers::h70f::Groups groups(problem.rays.data());
+  const int found = solvers::h70f::solve(math::simdLevel(), problem.rays.data(), groups, poses, &ends);
+  *complete = ends.complete();
+  return found;
+}
+
+// A homotopy's pattern: the usual scene, or all the others.
+void addScenes(const std::string& name, const RaysPerCamera& pattern, const std::vector<MinimalScene>& scenes, bool awkward,
+               const Row& like, std::vector<Row>* rows) {
+  const int points = static_cast<int>(like.exactPoints);
+  const auto add = [&](const std::string& rowName, const std::function<MinimalProblem(Random&)>& makeProblem) {
+    rows->push_back(like);
+    rows->back().name = rowName;
+    rows->back().makeProblem = makeProblem;
+  };
+  if (!awkward) add(name, [=](Random& random) { return makeMinimalProblem(random, pattern, points); });
+  for (const MinimalScene& scene : scenes)
+    if (awkward) add(name + ", " + scene.name, [=](Random& random) { return scene.make(random, pattern); });
+}
+
+void addHomotopyRows(bool awkward, std::vector<Row>* rows) {
+  for (const RaysPerCamera& pattern : h51fPatterns())
+    addScenes("h51f_" + nameOf(pattern), pattern, h51fScenes(), awkward, {"", nullptr, 1, {}, &solveH51f}, rows);
+  for (const RaysPerCamera& pattern : h70fPatterns()) {
+    const bool isClosedForm = pattern[0] == 6;
+    const Row like{"", isClosedForm ? kH70f : nullptr, 0, {}, isClosedForm ? nullptr : &solveH70f};
+    addScenes("h70f_" + nameOf(pattern), pattern, h70fScenes(), awkward, like, rows);
   }
 }
 
@@ -85,11 +109,13 @@ void addOneCentreRows(std::vector<Row>* rows) {
 }
 
 std::vector<Row> rows(bool awkward) {
-  const solvers::SolveFunction severalCentres = &solvers::h51f::solve;  // has rows of its own
+  const auto hasRowsOfItsOwn = [](const solvers::MinimalSolver& solver) {
+    return solver.solve == kH51f || solver.solve == kH70f;
+  };
   std::vector<Row> rows;
   for (const SolverConfiguration& configuration : solverConfigurations())
-    if (configuration.solver->solve != severalCentres) addRows(configuration, awkward, &rows);
-  addH51fRows(awkward, &rows);
+    if (!hasRowsOfItsOwn(*configuration.solver)) addRows(configuration, awkward, &rows);
+  addHomotopyRows(awkward, &rows);
   if (awkward) addOneCentreRows(&rows);
   return rows;
 }
@@ -106,8 +132,8 @@ void measure(const Row& row, int count, std::uint64_t seed) {
     FocalPoses poses(solvers::kMaxSolutions);
     const Clock::time_point start = Clock::now();
     bool complete = false;
-    const int found = row.tellsCompleteness ? solveH51f(problem, poses.data(), &complete)
-                                            : row.solve(problem.rays.data(), problem.points.data(), poses.data());
+    const int found = row.solveAndCount ? row.solveAndCount(problem, poses.data(), &complete)
+                                        : row.solve(problem.rays.data(), problem.points.data(), poses.data());
     seconds += std::chrono::duration<double>(Clock::now() - start).count();
     poses.resize(static_cast<std::size_t>(found));
     solutions += poses.size();
@@ -124,7 +150,7 @@ void measure(const Row& row, int count, std::uint64_t seed) {
   std::sort(logErrors.begin(), logErrors.end());
   const auto quantile = [&](double q) { return logErrors[static_cast<std::size_t>(q * (count - 1))]; };
   char completeness[16] = "-";
-  if (row.tellsCompleteness) std::snprintf(completeness, sizeof completeness, "%.4f", 100.0 * completeSets / count);
+  if (row.solveAndCount) std::snprintf(completeness, sizeof completeness, "%.4f", 100.0 * completeSets / count);
   std::printf("| %-44s | %7d | %8.4f | %7.4f | %6.2f | %6.2f | %5.2f | %5zu | %5zu | %8s | %7.2f |\n", row.name.c_str(), count,
               100.0 * recovered / count, 100.0 * failures / count, quantile(0.5), quantile(0.99),
               static_cast<double>(solutions) / count, wrong, duplicates, completeness, 1e6 * seconds / count);

@@ -65,6 +65,9 @@ TEST(MinimalProblems, SampleOfOneCameraHasTheRowOfItsOwn) {
   EXPECT_LT(oneCamera->maxSolutions, several->maxSolutions);
   EXPECT_EQ(test::solverFor(rowsOf("sixpt_onefocal"), {5, 1}), nullptr);
   EXPECT_NE(test::solverFor(rowsOf("sixpt_onefocal"), {6}), nullptr);
+  EXPECT_EQ(test::solverFor(rowsOf(Solver::H70f), {6, 1})->draw, RayDraw::AllButOne);
+  EXPECT_EQ(test::solverFor(rowsOf(Solver::H70f), {5, 2})->draw, RayDraw::Spread);
+  EXPECT_EQ(test::solverFor(rowsOf(Solver::H70f), {7})->draw, RayDraw::Spread);
 }
 
 TEST(MinimalProblems, UnknownNamesAreRefused) {
@@ -79,7 +82,7 @@ TEST(MinimalProblems, UnknownNamesAreRefused) {
 
 TEST(MinimalProblems, RansacDrawsThoseWithAPriorByDefault) {
   const std::vector<sac::SolverPrior> solvers = sac::HybridRansacOptions().solvers;
-  ASSERT_EQ(solvers.size(), allSolvers().size());
+  ASSERT_EQ(solvers.size(), allSolvers().size() - 1);  // without h70f
   for (const sac::SolverPrior& entry : solvers)
     EXPECT_EQ(entry.prior, entry.solver == Solver::P35Pf ? 0.1 : 1) << toString(entry.solver);
 }
@@ -92,7 +95,8 @@ TEST(MinimalProblems, PublicFunctionsSolveTheProblemOfTheirName) {
     FocalPoses (*solve)(const Adapter&);
   } functions[] = {{"p4pf", &absolute_pose::p4pf}, {"p35pf", &absolute_pose::p35pf},
                    {"h13f", &hybrid_pose::h13f},   {"h32f", &hybrid_pose::h32f},
-                   {"h51f", &hybrid_pose::h51f},   {"sixpt_onefocal", &relative_pose::sixpt_onefocal}};
+                   {"h51f", &hybrid_pose::h51f},   {"sixpt_onefocal", &relative_pose::sixpt_onefocal},
+                   {"h70f", &hybrid_pose::h70f}};
   test::Random random(test::testSeed() + 720);
   for (const auto& function : functions)
     for (const test::SolverConfiguration& configuration : test::configurationsOf(rowsOf(function.name))) {

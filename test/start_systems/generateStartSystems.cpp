@@ -1,112 +1,92 @@
-// Writes the tables of start systems: generateStartSystems SHARING SEED CANDIDATES STEPS > StartSystemX.cpp
+// Writes the tables of start systems: generateStartSystems PROBLEM CLASS SEED CANDIDATES STEPS > StartSystemX.cpp
 //
-// SHARING is 2, 3 or 4, the largest number of rays with one centre (2: at most two). From the seed: all solutions of a complex
-// system by monodromy; CANDIDATES other systems near random real ones, of which the one with the shortest paths to a set of
+// PROBLEM is h51f or h70f, CLASS the name of one of its values of Sharing (AtMostTwo, Three, ..). From the seed: all solutions of a
+// complex system by monodromy; CANDIDATES other systems near random real ones, of which the one with the shortest paths to a set of
 // training samples is taken; then STEPS random changes of it, of which those are kept that make the paths shorter. The length of
 // a path is the number of its steps. The parameters are rounded to five decimals before the solutions are computed.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "H51fScenes.hpp"
-#include "start_systems/H51fMonodromy.hpp"
+#include "start_systems/H51fFamily.hpp"
+#include "start_systems/H70fFamily.hpp"
 #include "start_systems/StartSystemSearch.hpp"
 
 namespace hybridgv {
-namespace solvers {
-namespace h51f {
+namespace test {
 namespace {
 
-using namespace HYBRIDGV_INSTRUCTION_SET;
+using namespace math;
+using solvers::complex_rays::ComplexNumber;
+using solvers::complex_rays::ComplexRays;
 
 constexpr double kCandidateDeviation = 0.3;
-constexpr int kTrainingSamples = 150, kIdleLoops = 10;
+constexpr int kIdleLoops = 10;
 
-struct Sample {
-  RayMatch rays[kRays];
-  PointMatch point;
-};
-
-Sample makeSample(Sharing sharing, const test::MinimalProblem& problem) {
-  Sample sample;
-  sample.point = problem.points[0];
-  if (arrange(problem.rays.data(), sample.point, sample.rays) != sharing) std::abort();
-  return sample;
-}
-
-std::vector<Sample> trainingSamples(Sharing sharing, test::Random& random) {
-  static const std::vector<std::vector<int>> kPatterns[] = {
-      {{1, 1, 1, 1, 1}, {2, 1, 1, 1}, {2, 2, 1}}, {{3, 1, 1}, {3, 2}}, {{4, 1}}};
-  const std::vector<std::vector<int>>& patterns = kPatterns[static_cast<int>(sharing)];
-  std::vector<Sample> samples;
-  for (int i = 0; i < kTrainingSamples; ++i) {
+// Half of them of the usual scene, half of a rig.
+template <class Family>
+std::vector<typename Family::Sample> trainingSamples(typename Family::Sharing sharing, Random& random) {
+  const std::vector<std::vector<int>>& patterns = Family::trainingPatterns(sharing);
+  std::vector<typename Family::Sample> samples;
+  for (int i = 0; i < Family::kTrainingSamples; ++i) {
     const std::vector<int>& pattern = patterns[static_cast<std::size_t>(i) % patterns.size()];
-    samples.push_back(makeSample(
-        sharing, i % 6 < 3 ? test::makeMinimalProblem(random, pattern, 1) : test::makeRigProblem(random, pattern, 0.5)));
+    const bool isUsual = i % Family::kTrainingPeriod < Family::kTrainingPeriod / 2;
+    samples.push_back(Family::sampleOf(sharing, isUsual ? makeMinimalProblem(random, pattern, Family::kPoints)
+                                                        : makeRigProblem(random, pattern, 0.5, Family::kPoints)));
   }
   return samples;
 }
 
-std::vector<math::Point<float, kUnknowns>> singlePrecision(const std::vector<KnownSolution>& solutions) {
-  std::vector<math::Point<float, kUnknowns>> result(solutions.size());
+template <int N>
+std::vector<math::Point<float, N>> singlePrecision(const std::vector<math::Point<double, N>>& solutions) {
+  std::vector<math::Point<float, N>> result(solutions.size());
   for (std::size_t i = 0; i < solutions.size(); ++i)
-    for (int k = 0; k < kUnknowns; ++k) {
+    for (int k = 0; k < N; ++k) {
       result[i].re[k] = static_cast<float>(solutions[i].re[k]);
       result[i].im[k] = static_cast<float>(solutions[i].im[k]);
     }
   return result;
 }
 
-// The parameters as the table has them.
-Parameters roundedToTable(Sharing sharing, Parameters parameters) {
-  const auto round = [](ComplexNumber& a) {
-    a.re = std::round(a.re * 1e5) / 1e5;
-    a.im = std::round(a.im * 1e5) / 1e5;
-  };
-  for (int j = 0; j < kRays; ++j) {
-    for (ComplexNumber& a : parameters.direction[j]) round(a);
-    for (ComplexNumber& a : parameters.moment[j]) round(a);
-    round(parameters.image[j]);
-    round(parameters.imageBar[j]);
-  }
-  round(parameters.pointImage);
-  round(parameters.pointImageBar);
-  restoreSharedCentre(sharing, &parameters);
-  return parameters;
-}
-
 // For StartSystemSearch.
-class Family {
+template <class Family>
+class Search {
  public:
-  using System = KnownSystem;
-  using Parameters = h51f::Parameters;
+  using System = KnownSystem<Family>;
+  using Parameters = typename Family::Parameters;
+  using Sharing = typename Family::Sharing;
 
-  Family(Sharing sharing, test::Random& random)
-      : sharing_(sharing), random_(random), samples_(trainingSamples(sharing, random)) {}
+  Search(Sharing sharing, Random& random)
+      : sharing_(sharing), random_(random), samples_(trainingSamples<Family>(sharing, random)) {}
 
   Parameters nearRandomReal() {
-    const Parameters real = randomRealSystem(sharing_, random_).parameters;
-    return perturbed(sharing_, real, kCandidateDeviation, random_);
+    const Parameters real = Family::randomRealSystem(sharing_, random_).parameters;
+    return perturbed<Family>(sharing_, real, kCandidateDeviation, random_);
   }
-  Parameters changed(const KnownSystem& system, double deviation) {
-    return perturbed(sharing_, system.parameters, deviation, random_);
+  Parameters changed(const System& system, double deviation) {
+    return perturbed<Family>(sharing_, system.parameters, deviation, random_);
   }
-  Parameters rounded(const Parameters& parameters) const { return roundedToTable(sharing_, parameters); }
-  bool moveTo(const Parameters& parameters, KnownSystem* system) const { return h51f::moveTo(parameters, system); }
+  Parameters rounded(Parameters parameters) const {
+    Family::forEachNumber(parameters, [](ComplexNumber& a, double) {
+      a.re = std::round(a.re * 1e5) / 1e5;
+      a.im = std::round(a.im * 1e5) / 1e5;
+    });
+    Family::restoreSharedCentres(sharing_, &parameters);
+    return parameters;
+  }
+  bool moveTo(const Parameters& parameters, System* system) const { return test::moveTo<Family>(parameters, system); }
 
   // Failures counted as the largest number.
-  std::vector<double> meanSteps(const KnownSystem& system) const {
+  std::vector<double> meanSteps(const System& system) const {
     const auto solutions = singlePrecision(system.solutions);
-    const StartSystem start{sharing_, static_cast<int>(solutions.size()), system.parameters, solutions.data()};
+    const typename Family::StartSystem start{sharing_, static_cast<int>(solutions.size()), system.parameters, solutions.data()};
     std::vector<double> steps(solutions.size());
-    for (const Sample& sample : samples_) {
-      Frame frame;
-      normalize(sharing_, sample.rays, sample.point, &frame);
-      alignWith(start, sample.rays, sample.point, &frame);
-      Parameters target = parametersIn(frame, sharing_, sample.rays, sample.point);
-      scaleRaysLike(system.parameters, &target);
-      int attempts[kMaxPaths];
-      PathSolver<H51fPathProblem>({start, target}).countSteps(attempts);
+    for (const typename Family::Sample& sample : samples_) {
+      const Parameters target = Family::targetOf(sample, start);
+      int attempts[Family::PathProblem::kMaxPaths];
+      PathSolver<typename Family::PathProblem>({start, target}).countSteps(attempts);
       for (std::size_t i = 0; i < steps.size(); ++i) steps[i] += attempts[i] / static_cast<double>(samples_.size());
     }
     return steps;
@@ -114,8 +94,8 @@ class Family {
 
  private:
   Sharing sharing_;
-  test::Random& random_;
-  std::vector<Sample> samples_;
+  Random& random_;
+  std::vector<typename Family::Sample> samples_;
 };
 
 void print(const ComplexNumber& a) { std::printf("{%.5f, %.5f}", a.re, a.im); }
@@ -137,63 +117,83 @@ void print(const ComplexNumber (&rows)[Count][3]) {
   }
   std::printf("},\n");
 }
-void print(const float (&values)[kUnknowns]) {
+template <int Rays>
+void print(const ComplexRays<Rays>& rays) {
+  print(rays.direction);
+  print(rays.moment);
+  std::printf("     ");
+  print(rays.image);
+  std::printf(",\n     ");
+  print(rays.imageBar);
+}
+void printParameters(const H51fFamily::Parameters& p) {
+  std::printf("{{\n");
+  print<solvers::h51f::kRays>(p);
+  std::printf("},\n     ");
+  print(p.pointImage);
+  std::printf(", ");
+  print(p.pointImageBar);
+  std::printf("}");
+}
+void printParameters(const H70fFamily::Parameters& p) {
+  std::printf("{\n");
+  print(p);
+  std::printf("}");
+}
+template <std::size_t N>
+void print(const float (&values)[N]) {
   std::printf("{");
-  for (int k = 0; k < kUnknowns; ++k) std::printf("%s%#.9gf", k > 0 ? ", " : "", static_cast<double>(values[k]));
+  for (std::size_t k = 0; k < N; ++k) std::printf("%s%#.9gf", k > 0 ? ", " : "", static_cast<double>(values[k]));
   std::printf("}");
 }
 
-void printTable(const KnownSystem& system) {
-  const char* name = caseOf(system.sharing).name;
-  std::printf("// clang-format off\n#include \"solvers/h51f/StartSystems.hpp\"\n\n");
-  std::printf("namespace hybridgv {\nnamespace solvers {\nnamespace h51f {\n\n");
+template <class Family>
+void printTable(const KnownSystem<Family>& system) {
+  const char* name = Family::caseOf(system.sharing).name;
+  std::printf("// clang-format off\n#include \"solvers/%s/StartSystems.hpp\"\n\n", Family::kName);
+  std::printf("namespace hybridgv {\nnamespace solvers {\nnamespace %s {\n\n", Family::kName);
   std::printf("static const math::Point<float, kUnknowns> kSolutions[] = {\n");
-  for (const math::Point<float, kUnknowns>& solution : singlePrecision(system.solutions)) {
+  for (const auto& solution : singlePrecision(system.solutions)) {
     std::printf("    {");
     print(solution.re);
     std::printf(", ");
     print(solution.im);
     std::printf("},\n");
   }
-  std::printf("};\n\nconst StartSystem kStart%s = {\n    Sharing::%s, %d,\n    {\n", name, name,
+  std::printf("};\n\nconst StartSystem kStart%s = {\n    Sharing::%s, %d,\n    ", name, name,
               static_cast<int>(system.solutions.size()));
-  const Parameters& p = system.parameters;
-  print(p.direction);
-  print(p.moment);
-  std::printf("     ");
-  print(p.image);
-  std::printf(",\n     ");
-  print(p.imageBar);
-  std::printf(",\n     ");
-  print(p.pointImage);
-  std::printf(", ");
-  print(p.pointImageBar);
-  std::printf("},\n    kSolutions};\n\n}  // namespace h51f\n}  // namespace solvers\n}  // namespace hybridgv\n");
+  printParameters(system.parameters);
+  std::printf(",\n    kSolutions};\n\n}  // namespace %s\n}  // namespace solvers\n}  // namespace hybridgv\n", Family::kName);
 }
 
-void generate(Sharing sharing, char** arguments) {
-  test::Random random(std::strtoull(arguments[2], nullptr, 10));
-  Family family(sharing, random);
-  const KnownSystem known = solveByMonodromy(sharing, kIdleLoops, random);
-  if (static_cast<int>(known.solutions.size()) != caseOf(sharing).solutions) std::abort();
-  test::StartSystemSearch<Family> search(family, known);
-  search.run(std::atoi(arguments[3]), std::atoi(arguments[4]));
-  std::printf("// Written by: generateStartSystems %s %s %s %s  (mean number of steps of a path on the training samples: %.2f)\n",
-              arguments[1], arguments[2], arguments[3], arguments[4], search.stepsPerPath());
-  printTable(search.chosen());
+template <class Family>
+bool generate(char** arguments) {
+  for (const typename Family::Sharing sharing : Family::kAll) {
+    if (std::string(arguments[2]) != Family::caseOf(sharing).name) continue;
+    Random random(std::strtoull(arguments[3], nullptr, 10));
+    Search<Family> family(sharing, random);
+    const KnownSystem<Family> known = solveByMonodromy<Family>(sharing, kIdleLoops, random);
+    if (static_cast<int>(known.solutions.size()) != Family::caseOf(sharing).solutions) std::abort();
+    StartSystemSearch<Search<Family>> search(family, known);
+    search.run(std::atoi(arguments[4]), std::atoi(arguments[5]));
+    std::printf("// Written by: generateStartSystems %s %s %s %s %s", arguments[1], arguments[2], arguments[3], arguments[4],
+                arguments[5]);
+    std::printf("  (mean number of steps of a path on the training samples: %.2f)\n", search.stepsPerPath());
+    printTable(search.chosen());
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
-}  // namespace h51f
-}  // namespace solvers
+}  // namespace test
 }  // namespace hybridgv
 
 int main(int argc, char** argv) {
-  using namespace hybridgv::solvers::h51f;
-  const int shared = argc == 5 ? std::atoi(argv[1]) : 0;
-  if (shared < 2 || shared > 4) {
-    std::fprintf(stderr, "usage: %s 2|3|4 SEED CANDIDATES STEPS\n", argv[0]);
-    return 2;
-  }
-  generate(sharingOf(shared), argv);
+  using namespace hybridgv::test;
+  const std::string problem = argc == 6 ? argv[1] : "";
+  if (problem == H51fFamily::kName && generate<H51fFamily>(argv)) return 0;
+  if (problem == H70fFamily::kName && generate<H70fFamily>(argv)) return 0;
+  std::fprintf(stderr, "usage: %s h51f|h70f CLASS SEED CANDIDATES STEPS\n", argv[0]);
+  return 2;
 }

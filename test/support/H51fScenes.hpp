@@ -26,7 +26,7 @@ inline std::string nameOf(const RaysPerCamera& pattern) {
 
 template <class RandomCentre, class RandomPoint>
 MinimalProblem makeH51fProblem(const FocalPose& query, const RaysPerCamera& pattern, RandomCentre randomCentre,
-                               RandomPoint randomPoint) {
+                               RandomPoint randomPoint, int points = 1) {
   MinimalProblem problem;
   problem.truth = query;
   int camera = 0;
@@ -35,12 +35,12 @@ MinimalProblem makeH51fProblem(const FocalPose& query, const RaysPerCamera& patt
     for (int i = 0; i < count; ++i) problem.rays.push_back(makeRayMatch(query, randomPoint(), centre, camera));
     ++camera;
   }
-  problem.points.push_back(makePointMatch(query, randomPoint()));
+  for (int i = 0; i < points; ++i) problem.points.push_back(makePointMatch(query, randomPoint()));
   return problem;
 }
 
 // Rig cameras within +-halfSize on each axis, the query among them, points at depth 5 .. 15: a small baseline against the scene.
-inline MinimalProblem makeRigProblem(Random& random, const RaysPerCamera& pattern, double halfSize) {
+inline MinimalProblem makeRigProblem(Random& random, const RaysPerCamera& pattern, double halfSize, int points = 1) {
   FocalPose query;
   query.rotation = random.rotation();
   query.focalLength = random.uniform(500, 2000);
@@ -50,11 +50,11 @@ inline MinimalProblem makeRigProblem(Random& random, const RaysPerCamera& patter
     const double u = random.uniform(-500, 500), v = random.uniform(-500, 500), depth = random.uniform(5, 15);
     return query.position + depth * (query.rotation * Eigen::Vector3d(u / query.focalLength, v / query.focalLength, 1));
   };
-  return makeH51fProblem(query, pattern, centre, point);
+  return makeH51fProblem(query, pattern, centre, point, points);
 }
 
 // All cameras on the query's side of the scene, as in structure from motion.
-inline MinimalProblem makeSameSideProblem(Random& random, const RaysPerCamera& pattern) {
+inline MinimalProblem makeSameSideProblem(Random& random, const RaysPerCamera& pattern, int points = 1) {
   const FocalPose query = cameraLookingAtOrigin(random, random.uniform(15, 25), random.uniform(500, 2000));
   const auto centre = [&]() -> Eigen::Vector3d {
     Eigen::Vector3d direction = random.direction();
@@ -66,11 +66,11 @@ inline MinimalProblem makeSameSideProblem(Random& random, const RaysPerCamera& p
     while (!isVisible(query, result)) result = random.vector(-5, 5);
     return result;
   };
-  return makeH51fProblem(query, pattern, centre, point);
+  return makeH51fProblem(query, pattern, centre, point, points);
 }
 
 // All points in one plane.
-inline MinimalProblem makePlanarProblem(Random& random, const RaysPerCamera& pattern) {
+inline MinimalProblem makePlanarProblem(Random& random, const RaysPerCamera& pattern, int points = 1) {
   const FocalPose query = cameraLookingAtOrigin(random, random.uniform(15, 25), random.uniform(500, 2000));
   const Eigen::Vector3d normal = random.direction();
   const auto centre = [&]() -> Eigen::Vector3d { return random.uniform(15, 25) * random.direction(); };
@@ -82,7 +82,7 @@ inline MinimalProblem makePlanarProblem(Random& random, const RaysPerCamera& pat
     } while (!isVisible(query, result));
     return result;
   };
-  return makeH51fProblem(query, pattern, centre, point);
+  return makeH51fProblem(query, pattern, centre, point, points);
 }
 
 // Replaces the 3D point, or the scene point of a ray, by one that is seen exactly at the principal point.
@@ -96,17 +96,17 @@ inline void moveRayToAxis(MinimalProblem& problem, std::size_t ray, double depth
 }
 
 // Scenes other than the usual one.
-struct H51fScene {
+struct MinimalScene {
   std::string name;
   std::function<MinimalProblem(Random&, const RaysPerCamera&)> make;
   bool finite = true;  // no solutions at infinity
 };
-inline const std::vector<H51fScene>& h51fScenes() {
-  static const std::vector<H51fScene> scenes = {
+inline const std::vector<MinimalScene>& h51fScenes() {
+  static const std::vector<MinimalScene> scenes = {
       {"rig +-0.5", [](Random& random, const RaysPerCamera& pattern) { return makeRigProblem(random, pattern, 0.5); }},
       {"rig +-0.1", [](Random& random, const RaysPerCamera& pattern) { return makeRigProblem(random, pattern, 0.1); }},
-      {"same side", makeSameSideProblem},
-      {"planar", makePlanarProblem},
+      {"same side", [](Random& random, const RaysPerCamera& pattern) { return makeSameSideProblem(random, pattern); }},
+      {"planar", [](Random& random, const RaysPerCamera& pattern) { return makePlanarProblem(random, pattern); }},
       {"point at the principal point",
        [](Random& random, const RaysPerCamera& pattern) {
          MinimalProblem problem = makeMinimalProblem(random, pattern, 1);

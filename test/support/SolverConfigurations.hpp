@@ -41,11 +41,15 @@ inline const solvers::MinimalSolver* solverFor(const solvers::SolverRows& proble
   return problem.forSample(rays.data());
 }
 
+// Without those that have no finite number of solutions: rays of one camera for a row that draws them from several.
 inline std::vector<SolverConfiguration> configurationsOf(const solvers::SolverRows& problem) {
   std::vector<SolverConfiguration> result;
-  for (const std::vector<int>& raysPerCamera : waysToShare(problem.rays()))
-    if (const solvers::MinimalSolver* const solver = solverFor(problem, raysPerCamera))
+  for (const std::vector<int>& raysPerCamera : waysToShare(problem.rays())) {
+    const solvers::MinimalSolver* const solver = solverFor(problem, raysPerCamera);
+    const bool isOneCamera = raysPerCamera.size() == 1;
+    if (solver && !(isOneCamera && solver->draw == solvers::RayDraw::Spread))
       result.push_back({problem.name(), raysPerCamera, solver});
+  }
   if (result.size() == 1) return result;
   for (SolverConfiguration& configuration : result) {
     configuration.name += "_";

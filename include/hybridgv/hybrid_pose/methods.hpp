@@ -106,6 +106,49 @@ HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter, const std::vec
 /// H51f on the adapter's first five 2D-2D correspondences and its first 2D-3D correspondence.
 HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter);
 
+/// H70f: pose and focal length of the query from seven 2D-2D correspondences, without any 3D point.
+///
+/// Equations, for the image points (u_k, v_k) of the viewing rays c_k + beta q_k (rig frame):
+///
+///     lambda_k (u_k, v_k, f) = rotation^T (c_k + beta_k q_k - position),   lambda_k > 0, beta_k > 0,   k = 1..7.
+///
+/// \param[in] adapter Correspondences: image points in pixels relative to the principal point (any scale); rays in the rig's frame
+///                    and unit.
+/// \param[in] indices indices[0]: seven 2D-2D correspondences, more are ignored; indices[1]: none. The overload without indices
+///                    takes the first seven.
+/// \return Poses with positive focal length that satisfy all equations; an empty list if there is none or the data are degenerate.
+///
+/// How many solutions there are depends on how many rays share a centre. Rays have one centre if they belong to one rig camera, or
+/// if their centres differ by less than 1e-9 of the largest distance between two centres.
+///
+/// | rays of the centres with three or more | solutions at most | time, x opengv::absolute_pose::gp3p |
+/// |---|---|---|
+/// | 6 | 9 | 0.2 |
+/// | 5 | 50 | 24 to 68, by the instruction set |
+/// | 4 + 3 | 76 | 29 to 95 |
+/// | 4 | 84 | 32 to 115 |
+/// | 3 + 3 | 98 | 45 to 150 |
+/// | 3 | 108 | 42 to 160 |
+/// | none | 118 | 36 to 135 |
+///
+/// Real solutions in front of all cameras are few: 3 on average, 8 on a rig with a short baseline, at most 20 were ever seen.
+///
+/// Degenerate, normally nothing is returned: all seven rays from one centre (the scale is not determined), a repeated ray, all image
+/// points equal, all rays parallel, the query at the centre that three or more rays share. With six rays from one centre also: their
+/// six points in one plane (then the focal length is not determined); all other patterns are solved for points in a plane as well.
+///
+/// Less reliable: of two solutions that nearly coincide one may be missing; an image point exactly at the principal point moves
+/// solutions to infinity, where they are left out; four or more rays whose centres differ, but by less than 1e-4 of their distance
+/// from the scene, take up to ten times as long.
+///
+/// \throws std::invalid_argument too few indices, a repeated index or one out of range, a value that is not finite.
+///
+/// Method: six rays from one centre by a binary form of degree 9, all other patterns by a parameter homotopy. The page "Seven rays"
+/// derives them and says how reliable they are.
+HYBRIDGV_EXPORT FocalPoses h70f(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices);
+/// H70f on the adapter's first seven 2D-2D correspondences.
+HYBRIDGV_EXPORT FocalPoses h70f(const HybridAdapterBase& adapter);
+
 /// Result of optimize_nonlinear. What it says of the distortion is 0 unless that was estimated.
 struct HYBRIDGV_EXPORT NonlinearResult {
   FocalPose pose;          ///< the local minimum

@@ -11,10 +11,7 @@ namespace h51f {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
 using namespace math;
-
-inline VectorHomotopy<float> narrowed(const VectorHomotopy<double>& vector) {
-  return {narrowed(vector.plus), narrowed(vector.minus), narrowed(vector.third)};
-}
+using namespace complex_rays;
 
 // The way from a start system to the target. Refers to both.
 class H51fPathProblem {
@@ -39,10 +36,7 @@ class H51fPathProblem {
     to.pointImage = narrowed(from.pointImage);
     to.pointImageBar = narrowed(from.pointImageBar);
     for (int j = 0; j < System::kRays; ++j) {
-      to.ray[j].direction = narrowed(from.ray[j].direction);
-      to.ray[j].moment = narrowed(from.ray[j].moment);
-      to.ray[j].image = narrowed(from.ray[j].image);
-      to.ray[j].imageBar = narrowed(from.ray[j].imageBar);
+      narrow(from.ray[j], &to.ray[j]);
       to.ray[j].cross = narrowed(from.ray[j].cross);
     }
     return to;

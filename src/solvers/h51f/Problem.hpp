@@ -2,26 +2,20 @@
 // instruction sets.
 #pragma once
 
-#include "math/homotopy/Data.hpp"
+#include "solvers/complex_rays/ComplexRays.hpp"
 
 namespace hybridgv {
 namespace solvers {
 namespace h51f {
 
+using complex_rays::ComplexNumber;
+
 constexpr int kRays = 5;
 constexpr int kUnknowns = 5;  // x, y, alpha, beta, d, see System.hpp
 constexpr int kMaxPaths = 56;
 
-struct ComplexNumber {
-  double re, im;
-};
-
-// The data of a problem, complexified: image points pi = u + i v and pib = u - i v are independent on the way from one problem to
-// another, and so are the direction q and the moment m = q x c of a ray through c (m.q = 0 need not hold: the number of solutions
-// is the same for lines and for linear line complexes). Origin of the rig at the 3D point.
-struct Parameters {
-  ComplexNumber direction[kRays][3], moment[kRays][3];
-  ComplexNumber image[kRays], imageBar[kRays];
+// The data of a problem, complexified. Origin of the rig at the 3D point.
+struct Parameters : complex_rays::ComplexRays<kRays> {
   ComplexNumber pointImage, pointImageBar;  // of the 3D point
 };
 
@@ -40,13 +34,7 @@ struct StartSystem {
 
 // The data of the equations on the straight way from one system (t = 0) to another (t = 1).
 template <class Scalar>
-struct VectorHomotopy {  // w+ = w1 + i w2, w- = w1 - i w2, w3
-  math::Polynomial<Scalar, 1> plus, minus, third;
-};
-template <class Scalar>
-struct RayHomotopy {
-  VectorHomotopy<Scalar> direction, moment;
-  math::Polynomial<Scalar, 1> image, imageBar;
+struct RayHomotopy : complex_rays::RayHomotopy<Scalar> {
   math::Polynomial<Scalar, 2> cross;  // pib pi0 - pi pib0
 };
 template <class Scalar>

@@ -1,10 +1,7 @@
 // From a sample to the parameters of the equations of System.hpp, and from their solutions back to poses.
 #pragma once
 
-#include <Eigen/Core>
-#include <complex>
-
-#include "solvers/MinimalSolver.hpp"
+#include "solvers/complex_rays/Frame.hpp"
 #include "solvers/h51f/Problem.hpp"
 
 namespace hybridgv {
@@ -20,14 +17,7 @@ Sharing arrange(const RayMatch* rays, const PointMatch& point, RayMatch* arrange
 constexpr double kSameCentre = 1e-9;
 bool sameCentre(const RayMatch& a, const RayMatch& b, const Eigen::Vector3d& point);
 
-// Rig coordinates X' = turn (X - origin) / length, image coordinates pi' = phase pi / imageScale.
-struct Frame {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double length = 1;
-  std::complex<double> phase = 1;
-  double imageScale = 1;
-};
+using complex_rays::Frame;
 
 // The 3D point as origin; a shared centre at (0, 0, kSharedCentre), otherwise mean distance 1 of the rays from the origin; mean
 // distance 1/4 of the image points from the principal point. Directions, moments and image points then have the spread that the
@@ -39,9 +29,6 @@ bool normalize(Sharing sharing, const RayMatch* rays, const PointMatch& point, F
 void alignWith(const StartSystem& start, const RayMatch* rays, const PointMatch& point, Frame* frame);
 
 Parameters parametersIn(const Frame& frame, Sharing sharing, const RayMatch* rays, const PointMatch& point);
-
-// The equation of a ray is homogeneous in (direction, moment): gives each ray the sign and the length of the start system's.
-void scaleRaysLike(const Parameters& start, Parameters* parameters);
 
 // A solution (x, y, alpha, beta, d) of the equations.
 struct Solution {

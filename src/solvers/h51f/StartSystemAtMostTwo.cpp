@@ -1,4 +1,4 @@
-// Written by: generateStartSystems 2 6 100 300  (mean number of steps of a path on the training samples: 31.63)
+// Written by: generateStartSystems h51f AtMostTwo 6 100 300  (mean number of steps of a path on the training samples: 31.63)
 // clang-format off
 #include "solvers/h51f/StartSystems.hpp"
 
@@ -67,7 +67,7 @@ static const math::Point<float, kUnknowns> kSolutions[] = {
 
 const StartSystem kStartAtMostTwo = {
     Sharing::AtMostTwo, 56,
-    {
+    {{
      {{{-0.49220, -0.10999}, {-0.13849, -0.23784}, {0.41239, 0.03386}},
       {{0.49107, 0.08131}, {-0.29903, 0.24024}, {0.98581, 0.30580}},
       {{1.21833, -0.38910}, {-0.03822, -0.00134}, {-0.32393, -0.15113}},
@@ -79,7 +79,7 @@ const StartSystem kStartAtMostTwo = {
       {{-0.13239, 0.59638}, {-0.50740, -0.85393}, {-0.18488, 0.27386}},
       {{-1.71608, -0.05676}, {1.32239, 0.04212}, {-1.41790, -0.28497}}},
      {{-0.08150, 0.28165}, {-0.18400, 0.25673}, {0.06175, 0.00592}, {-0.12120, -0.17529}, {0.21303, -0.13179}},
-     {{-0.13687, -0.28151}, {-0.38028, 0.05684}, {-0.39761, 0.12968}, {0.04787, 0.02985}, {0.31464, 0.08947}},
+     {{-0.13687, -0.28151}, {-0.38028, 0.05684}, {-0.39761, 0.12968}, {0.04787, 0.02985}, {0.31464, 0.08947}}},
      {-0.53980, 0.16849}, {-0.04203, 0.22452}},
     kSolutions};
 

@@ -166,6 +166,11 @@ bool SixCorrespondences::normalize() {
   return true;
 }
 
+bool SixCorrespondences::setRays(const RayMatch* rays) {
+  for (int k = 0; k < kSix; ++k) set(k, rays[k].u, rays[k].v, rays[k].direction);
+  return normalize();
+}
+
 int oneFocalFundamental(const SixCorrespondences& correspondences, OneFocalMotion* motions) {
   constexpr double kLeastFocalLength = 5e-4;  // of the largest image coordinate; what lies below belongs to f = 0
   OneFocalPencil pencil;

@@ -21,6 +21,8 @@
 
 #include <Eigen/Core>
 
+#include "solvers/MinimalSolver.hpp"
+
 namespace hybridgv {
 namespace solvers {
 namespace one_centre {
@@ -42,6 +44,8 @@ struct SixCorrespondences {
   }
   // Divides u, v by their largest magnitude; false if all are 0.
   bool normalize();
+  // Six rays, and normalizes them.
+  bool setRays(const RayMatch* rays);
 };
 
 // Pose up to the length of the baseline, where all six points lie in front of both cameras.

@@ -10,8 +10,7 @@ namespace one_centre {
 
 int sixptOnefocal(const RayMatch* rays, const PointMatch* /*points*/, FocalPose* solutions) {
   SixCorrespondences six;
-  for (int k = 0; k < kSix; ++k) six.set(k, rays[k].u, rays[k].v, rays[k].direction);
-  if (!six.normalize()) return 0;
+  if (!six.setRays(rays)) return 0;
   OneFocalMotion motions[kMaxOneFocalMotions];
   const int count = oneFocalFundamental(six, motions);
   for (int i = 0; i < count; ++i) {

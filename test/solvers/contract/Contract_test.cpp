@@ -14,7 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kProblems = 200;
 constexpr double kExtent = 20;  // size of the scenes
 constexpr double kSame = 1e-6;  // two poses that differ by less are one
 
@@ -46,6 +45,7 @@ struct Change {
 
 class Contract : public testing::TestWithParam<SolverCase> {
  protected:
+  static std::uint64_t problems() { return GetParam().problems(200, 50); }
   static MinimalProblem problem(std::uint64_t i) {
     Random random(testSeed() + 700, i);
     return makeMinimalProblem(random, GetParam().raysPerCamera, GetParam().points);
@@ -65,7 +65,7 @@ class Contract : public testing::TestWithParam<SolverCase> {
   static void expectInvariance(std::uint64_t stream, bool ofAllSolutions,
                                const std::function<Change(Random&, const MinimalProblem&)>& makeChange) {
     long lost = 0;
-    for (std::uint64_t i = 0; i < kProblems; ++i) {
+    for (std::uint64_t i = 0; i < problems(); ++i) {
       Random random(testSeed() + stream, i);
       const MinimalProblem original = problem(i);
       const Change change = makeChange(random, original);
@@ -92,18 +92,18 @@ void forAllImagePoints(MinimalProblem& problem, const ChangeImagePoint& change) 
 TEST_P(Contract, ExactDataAreRecovered) {
   int lost = 0;
   std::vector<double> errors;
-  for (std::uint64_t i = 0; i < kProblems; ++i) {
+  for (std::uint64_t i = 0; i < problems(); ++i) {
     const MinimalProblem example = problem(i);
     errors.push_back(distanceToNearest(GetParam().solutions(example), truth(example), kExtent));
     lost += !(errors.back() < 1e-8);
   }
   EXPECT_LE(lost, GetParam().followsPaths ? 1 : 0);
-  std::nth_element(errors.begin(), errors.begin() + kProblems / 2, errors.end());
-  EXPECT_LT(errors[kProblems / 2], 1e-13);
+  std::nth_element(errors.begin(), errors.begin() + static_cast<long>(problems() / 2), errors.end());
+  EXPECT_LT(errors[problems() / 2], 1e-13);
 }
 
 TEST_P(Contract, SolutionsSatisfyTheEquationsAndAreDifferent) {
-  for (std::uint64_t i = 0; i < kProblems; ++i) {
+  for (std::uint64_t i = 0; i < problems(); ++i) {
     const MinimalProblem example = problem(i);
     const EquationCheck equations(example.rays, example.points, GetParam().exactCoordinates);
     const FocalPoses poses = GetParam().solutions(example);
@@ -203,20 +203,22 @@ TEST_P(Contract, RotationAboutTheOpticalAxisRotatesTheQuery) {
 
 // To first order the error is proportional to the noise: what rounding adds is invisible beside a ten-millionth of a pixel.
 TEST_P(Contract, ErrorGrowsInProportionToTheNoise) {
+  // Rays alone bind the scale more loosely.
+  const std::size_t most = GetParam().points > 0 || GetParam().isUpToScale ? 90 : 85;
   for (const double sigma : {1e-7, 1e-5, 1e-3, 0.1, 1.0}) {
     SCOPED_TRACE(sigma);
     std::vector<double> errors;
-    for (std::uint64_t i = 0; i < kProblems; ++i) {
+    for (std::uint64_t i = 0; i < problems(); ++i) {
       Random random(testSeed() + 705, i);
       MinimalProblem example = problem(i);
       forAllImagePoints(example, [&](double& u, double& v) { u += sigma * random.normal(), v += sigma * random.normal(); });
       errors.push_back(distanceToNearest(GetParam().solutions(example), truth(example), kExtent) / sigma);
     }
     std::sort(errors.begin(), errors.end());
-    const double median = errors[kProblems / 2];
+    const double median = errors[problems() / 2];
     EXPECT_GT(median, 0.03);  // per pixel, at a focal length of some 1000 pixels
     EXPECT_LT(median, 0.25);
-    EXPECT_LT(errors[kProblems * 9 / 10], 4);
+    EXPECT_LT(errors[problems() * most / 100], 4);
   }
 }
 

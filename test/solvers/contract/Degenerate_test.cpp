@@ -9,16 +9,15 @@ namespace hybridgv {
 namespace test {
 namespace {
 
-constexpr int kProblems = 50;
-
 struct Tally {
   int problems = 0, recovered = 0, empty = 0;
 };
 
 Tally solveAll(const Situation& situation, const SolverCase& solver) {
   Tally tally;
-  for (int i = 0; i < kProblems; ++i) {
-    Random random(testSeed() + 710, static_cast<std::uint64_t>(i));
+  const std::uint64_t problems = solver.problems(50, 10);
+  for (std::uint64_t i = 0; i < problems; ++i) {
+    Random random(testSeed() + 710, i);
     SituationScene scene(random, solver);
     situation.changeScene(scene, random);
     MinimalProblem problem = scene.problem();

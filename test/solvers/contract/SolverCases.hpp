@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct SolverCase {
   int maxSolutions;
   std::size_t exactCoordinates;
   int exchangeablePoints;  // so many of the first points may be permuted without changing the problem
+  double cost;             // microseconds
   bool followsPaths;       // a path may be lost, about once in ten thousand problems
   bool isUpToScale;        // the distance from the rays' centre is not determined and returned as 1
   bool usesAllOfImage;     // false: the image's axes matter, because one of two coordinates is left out
@@ -33,9 +35,13 @@ struct SolverCase {
         maxSolutions(configuration.solver->maxSolutions),
         exactCoordinates(static_cast<std::size_t>(configuration.solver->exactCoordinates)),
         exchangeablePoints(configuration.solver->exactCoordinates / 2),
+        cost(configuration.solver->cost),
         followsPaths(configuration.solver->followsPaths),
         isUpToScale(!configuration.solver->id),
         usesAllOfImage(configuration.solver->exactCoordinates % 2 == 0) {}
+
+  // How many problems a test takes: fewer of solvers that take their time.
+  std::uint64_t problems(std::uint64_t usual, std::uint64_t few) const { return cost < 500 ? usual : few; }
 
   FocalPoses solutions(const MinimalProblem& problem) const {
     FocalPose poses[solvers::kMaxSolutions];

@@ -6,6 +6,7 @@
 #include "FocalPoseNear.hpp"
 #include "GoldenProblems.hpp"
 #include "H51fScenes.hpp"
+#include "SimdLevels.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "solvers/MinimalProblems.hpp"
 #include "solvers/h51f/solve.hpp"
@@ -40,13 +41,6 @@ void expectValid(const MinimalProblem& problem, const FocalPoses& solutions) {
   for (const FocalPose& pose : solutions)
     EXPECT_LT(largestResidual(problem, pose, 1), kSmallResidual) << "f " << pose.focalLength;
   EXPECT_TRUE(areDistinct(solutions, 1e-9));
-}
-
-std::vector<SimdLevel> supportedLevels() {
-  std::vector<SimdLevel> levels;
-  for (SimdLevel level : {SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512})
-    if (level <= math::supportedSimdLevel()) levels.push_back(level);
-  return levels;
 }
 
 class H51fLevels : public testing::TestWithParam<SimdLevel> {
@@ -84,7 +78,7 @@ TEST_P(H51fLevels, FindsTheTruthInOtherScenes) {
   constexpr std::uint64_t kCount = 25;
   for (std::size_t i = 0; i < h51fScenes().size(); ++i)
     for (const RaysPerCamera& pattern : h51fPatterns()) {
-      const H51fScene& scene = h51fScenes()[i];
+      const MinimalScene& scene = h51fScenes()[i];
       run([&](Random& random) { return scene.make(random, pattern); }, kCount, 1 + i);
       EXPECT_GE(found_, kCount - 1) << scene.name << ", " << nameOf(pattern);
       if (scene.finite) {
