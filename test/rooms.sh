@@ -15,6 +15,8 @@ robust/kernels
 robust
 hybrid_pose
 absolute_pose relative_pose sac sac_problems/hybrid_pose
+program/common
+program
 '
 # One line for each include of a file of ours: the folder and file that includes, the folder and file that is included.
 includes() {

@@ -46,25 +46,23 @@ sac::HybridRansacResult search(const LocalizationProblem& problem, const QueryIm
   return hybridRansac(problem.adapter, options.ransac);
 }
 
-std::string counted(std::size_t count, const char* kind) { return std::to_string(count) + " " + kind; }
-
 // Empty for a success.
 std::string reasonOf(const QueryImage& query, const LocalizationProblem& problem, const sac::HybridRansacResult& result,
                      const QueryOptions& options) {
   const std::size_t rays = problem.adapter.getNumberCorrespondences2d2d(),
                     points = problem.adapter.getNumberCorrespondences2d3d();
   if (query.matches.empty()) return "no matches with the map";
-  const std::string matches = counted(rays, "2D-2D and ") + counted(points, "2D-3D matches");
+  const std::string matches = " (" + std::to_string(rays) + " 2D-2D and " + std::to_string(points) + " 2D-3D matches)";
   if (result.failureReason == sac::FailureReason::TooFewCorrespondences)
-    return points == 0 ? "no 2D-3D match, of " + matches : "too few: " + matches;
-  if (!result.success) return std::string(toString(result.failureReason)) + " (" + matches + ")";
+    return (points == 0 ? "no 2D-3D match" : "too few matches") + matches;
+  if (!result.success) return toString(result.failureReason) + matches;
   const int inliers = result.numberInliers2d2d + result.numberInliers2d3d;
   if (inliers < options.minInliers)
-    return "only " + std::to_string(inliers) + " inliers, " + std::to_string(options.minInliers) + " are wanted";
+    return "too few inliers (" + std::to_string(inliers) + ", " + std::to_string(options.minInliers) + " are wanted)";
   const double share = inliers / static_cast<double>(rays + points);
   if (share < options.minInlierShare)
-    return "only " + detail::format(100 * share) + " % of the matches are inliers, " +
-           detail::format(100 * options.minInlierShare) + " % are wanted";
+    return "too small a share of inliers (" + detail::format(share) + ", " + detail::format(options.minInlierShare) +
+           " is wanted)";
   return {};
 }
 
@@ -115,51 +113,24 @@ QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query,
 
 namespace {
 
-// What the images of one camera say about it.
-struct JointCamera {
-  bool isFound = false;
-  double focalLength = 0, k1 = 0;
-};
+constexpr double kSmallestDeviation = 2e-3, kMostDeviations = 5;
 
-struct Opinion {
-  double focalLength, deviation, k1;
-  double weight() const { return 1 / (deviation * deviation); }
-};
-
-double weightedMedian(std::vector<Opinion> opinions) {
-  std::sort(opinions.begin(), opinions.end(), [](const Opinion& a, const Opinion& b) { return a.focalLength < b.focalLength; });
-  double sum = 0, half = 0;
-  for (const Opinion& o : opinions) half += o.weight() / 2;
-  for (const Opinion& o : opinions) {
-    sum += o.weight();
-    if (sum >= half) return o.focalLength;
-  }
-  return opinions.back().focalLength;
+double weightOf(const CameraEstimate& e) {
+  const double deviation = std::max(e.deviation, kSmallestDeviation * e.focalLength);
+  return 1 / (deviation * deviation);
 }
 
-JointCamera agree(const std::vector<QueryLocalization>& localizations) {
-  // Deviations say nothing of errors that all matches of an image share.
-  constexpr double kSmallestDeviation = 2e-3, kMostDeviations = 5;
-  std::vector<Opinion> opinions;
-  for (const QueryLocalization& l : localizations) {
-    if (!l.success) continue;
-    const double f = l.camera.parameters[0];
-    opinions.push_back({f, std::max(l.result.focalLengthStandardDeviation, kSmallestDeviation * f), l.k1});
+// Half of the weight is below it.
+double middleOf(std::vector<CameraEstimate> estimates) {
+  const auto isShorter = [](const CameraEstimate& a, const CameraEstimate& b) { return a.focalLength < b.focalLength; };
+  std::sort(estimates.begin(), estimates.end(), isShorter);
+  double sum = 0, half = 0;
+  for (const CameraEstimate& e : estimates) half += weightOf(e) / 2;
+  for (const CameraEstimate& e : estimates) {
+    sum += weightOf(e);
+    if (sum >= half) return e.focalLength;
   }
-  JointCamera joint;
-  if (opinions.empty()) return joint;
-  const double middle = weightedMedian(opinions);
-  double sum = 0;
-  for (const Opinion& o : opinions) {
-    if (std::abs(o.focalLength - middle) > kMostDeviations * o.deviation) continue;
-    sum += o.weight();
-    joint.focalLength += o.weight() * o.focalLength;
-    joint.k1 += o.weight() * o.k1;
-  }
-  joint.isFound = sum > 0;
-  joint.focalLength /= sum;
-  joint.k1 /= sum;
-  return joint;
+  return estimates.back().focalLength;
 }
 
 void checkSameCamera(const std::vector<QueryImage>& queries) {
@@ -171,27 +142,64 @@ void checkSameCamera(const std::vector<QueryImage>& queries) {
   }
 }
 
+// With the common camera; no success if it does not fit.
+QueryLocalization localizeKnown(const SparseModel& map, const QueryImage& query, const CameraEstimate& common,
+                                const QueryOptions& options) {
+  QueryImage known = query;
+  known.knowledge = CameraKnowledge::Known;
+  known.camera = distortedCamera(query.camera, common.focalLength, common.k1);
+  QueryLocalization localization = localizeQuery(map, known, options);
+  setCamera(query, common.focalLength, common.k1, localization);
+  return localization;
+}
+
 }  // namespace
+
+CameraEstimate estimateOf(const QueryLocalization& localization) {
+  return {focalLength(localization.camera), localization.result.focalLengthStandardDeviation, localization.k1};
+}
+
+std::optional<CameraEstimate> agree(const std::vector<CameraEstimate>& estimates) {
+  for (const CameraEstimate& e : estimates)
+    if (!(e.focalLength > 0) || !std::isfinite(e.focalLength) || !std::isfinite(e.k1) || !(e.deviation >= 0))
+      throwInvalid("estimates", "one has the focal length " + detail::format(e.focalLength) + ", the deviation " +
+                                    detail::format(e.deviation) + " and k1 " + detail::format(e.k1));
+  if (estimates.empty()) return std::nullopt;
+  const double middle = middleOf(estimates);
+  double sum = 0;
+  CameraEstimate mean;
+  for (const CameraEstimate& e : estimates) {
+    const double weight = weightOf(e);
+    if (std::abs(e.focalLength - middle) * std::sqrt(weight) > kMostDeviations) continue;
+    sum += weight;
+    mean.focalLength += weight * e.focalLength;
+    mean.k1 += weight * e.k1;
+  }
+  return CameraEstimate{mean.focalLength / sum, 1 / std::sqrt(sum), mean.k1 / sum};
+}
+
+QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query, const CameraEstimate& common,
+                                const QueryOptions& options) {
+  if (query.knowledge == CameraKnowledge::Known) return localizeQuery(map, query, options);
+  QueryLocalization localization = localizeKnown(map, query, common, options);
+  return localization.success ? localization : localizeQuery(map, query, options);
+}
 
 std::vector<QueryLocalization> localizeQueries(const SparseModel& map, const std::vector<QueryImage>& queries,
                                                const QueryOptions& options) {
   checkSameCamera(queries);
   std::vector<QueryLocalization> localizations;
-  for (const QueryImage& query : queries) localizations.push_back(localizeQuery(map, query, options));
+  std::vector<CameraEstimate> estimates;
+  for (const QueryImage& query : queries) {
+    localizations.push_back(localizeQuery(map, query, options));
+    if (localizations.back().success) estimates.push_back(estimateOf(localizations.back()));
+  }
   if (queries.size() < 2 || queries[0].knowledge == CameraKnowledge::Known) return localizations;
-  const JointCamera joint = agree(localizations);
-  if (!joint.isFound) return localizations;
+  const std::optional<CameraEstimate> common = agree(estimates);
+  if (!common) return localizations;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    QueryImage query = queries[i];
-    query.knowledge = CameraKnowledge::Known;
-    query.camera = distortedCamera(queries[i].camera, joint.focalLength, joint.k1);
-    QueryLocalization known = localizeQuery(map, query, options);
-    if (!known.success && localizations[i].success) continue;
-    if (known.success)
-      setCamera(queries[i], joint.focalLength, joint.k1, known);
-    else
-      known.camera = queries[i].camera;
-    localizations[i] = std::move(known);
+    QueryLocalization known = localizeKnown(map, queries[i], *common, options);
+    if (known.success) localizations[i] = std::move(known);
   }
   return localizations;
 }

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "../common/CsvFile.hpp"
-#include "../common/PoseError.hpp"
-#include "../common/Statistics.hpp"
 #include "../common/processorSeconds.hpp"
 #include "MinimalProblem.hpp"
+#include "common/PoseError.hpp"
+#include "common/Statistics.hpp"
 
 // Of the solution nearest to the truth in rotation and focal length together; all infinite if there is no solution.
 inline PoseError errorOfNearest(const hybridgv::FocalPoses& solutions, const hybridgv::FocalPose& truth) {

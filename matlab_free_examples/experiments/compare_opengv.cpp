@@ -15,10 +15,10 @@
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
-#include "../common/PoseError.hpp"
-#include "../common/ProgressBar.hpp"
 #include "ErrorTable.hpp"
 #include "HybridScene.hpp"
+#include "common/PoseError.hpp"
+#include "common/ProgressBar.hpp"
 
 namespace {
 

@@ -10,9 +10,9 @@
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
-#include "../common/ProgressBar.hpp"
 #include "ErrorTable.hpp"
 #include "HybridScene.hpp"
+#include "common/ProgressBar.hpp"
 
 namespace {
 

@@ -9,12 +9,12 @@
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
-#include "../common/ProgressBar.hpp"
-#include "../common/Statistics.hpp"
-#include "../common/parallelFor.hpp"
 #include "../common/processorSeconds.hpp"
 #include "Gp3pProblem.hpp"
 #include "MinimalProblem.hpp"
+#include "common/ProgressBar.hpp"
+#include "common/Statistics.hpp"
+#include "common/parallelFor.hpp"
 
 namespace {
 

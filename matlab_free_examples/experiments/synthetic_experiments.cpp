@@ -11,12 +11,12 @@
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
-#include "../common/PoseError.hpp"
-#include "../common/ProgressBar.hpp"
-#include "../common/Statistics.hpp"
-#include "../common/parallelFor.hpp"
 #include "ErrorTable.hpp"
 #include "SyntheticScene.hpp"
+#include "common/PoseError.hpp"
+#include "common/ProgressBar.hpp"
+#include "common/Statistics.hpp"
+#include "common/parallelFor.hpp"
 
 namespace {
 

@@ -102,7 +102,7 @@ TEST(LocalizeQuery, FailuresHaveReasons) {
   scene.query.keypoints[makeLocalizationProblem(scene.map, scene.query).keypoints2d3d[0]].x += 300;
   const QueryLocalization share = localizeQuery(scene.map, scene.query, options);
   EXPECT_FALSE(share.success);
-  EXPECT_NE(share.reason.find("100 % are wanted"), std::string::npos) << share.reason;
+  EXPECT_NE(share.reason.find("share of inliers ("), std::string::npos) << share.reason;
   for (Image& image : scene.map.images)
     for (Observation& o : image.observations) o.point = Observation::kNoPoint;
   scene.query.matches.resize(1);
@@ -145,6 +145,32 @@ TEST(LocalizeQueries, OneCameraForAll) {
   }
   EXPECT_LT(test::median(together), test::median(alone));
   EXPECT_LT(test::median(together), 1);
+}
+
+TEST(LocalizeQueries, EstimatesAreWeighedAndThoseThatContradictTheOthersAreNotUsed) {
+  EXPECT_FALSE(agree({}));
+  const CameraEstimate one = agree({{1000, 10, 0.1}}).value();
+  EXPECT_NEAR(one.focalLength, 1000, 1e-9);
+  EXPECT_NEAR(one.deviation, 10, 1e-9);
+  const CameraEstimate two = agree({{1000, 10, 0.1}, {1020, 20, 0.2}}).value();
+  EXPECT_NEAR(two.focalLength, 1004, 1e-9);
+  EXPECT_NEAR(two.k1, 0.12, 1e-12);
+  EXPECT_NEAR(two.deviation, std::sqrt(80.0), 1e-9);
+  EXPECT_NEAR(agree({{1000, 10, 0.1}, {1004, 10, 0.1}, {2000, 10, 0.5}}).value().focalLength, 1002, 1e-9);
+  EXPECT_NEAR(agree({{1000, 0, 0.1}, {1002, 1e-6, 0.1}}).value().focalLength, 1001, 0.1);  // nobody is that sure
+  EXPECT_THROW(agree({{-1, 1, 0}}), std::invalid_argument);
+  EXPECT_THROW(agree({{1000, std::nan(""), 0}}), std::invalid_argument);
+}
+
+TEST(LocalizeQueries, CommonCamerasThatDoNotFitAreNotUsed) {
+  const QueryScene scene = makeNoisyScene(80, CameraModel::SimplePinhole);
+  const double f = scene.truth.focalLength;
+  const QueryLocalization right = localizeQuery(scene.map, scene.query, CameraEstimate{f, 1, 0});
+  ASSERT_TRUE(right.success);
+  EXPECT_EQ(right.camera.parameters[0], f);
+  const QueryLocalization wrong = localizeQuery(scene.map, scene.query, CameraEstimate{30 * f, 1, 0});
+  ASSERT_TRUE(wrong.success);
+  EXPECT_LT(focalErrorPercent(wrong, scene), 2);
 }
 
 TEST(LocalizeQueries, WrongCallsAreNamed) {

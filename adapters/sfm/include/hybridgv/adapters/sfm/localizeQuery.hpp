@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,10 +59,28 @@ struct QueryLocalization {
 HYBRIDGV_EXPORT QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query,
                                                 const QueryOptions& options = {});
 
-/// Localizes several query images of **one camera**: each by itself first; then the camera that they have in common, of which each knows
-/// the focal length and the distortion to its own deviation; then each once more with that camera known.
-///
-/// Images that contradict the others' focal length have no say in it. An image that the common camera does not fit keeps its own.
+/// What one image, or several together, say about a camera.
+struct CameraEstimate {
+  double focalLength = 0;  ///< fx [px]
+  double deviation = 0;    ///< its standard deviation [px]
+  double k1 = 0;           ///< distortion
+};
+
+/// What a success says about its camera.
+HYBRIDGV_EXPORT CameraEstimate estimateOf(const QueryLocalization& localization);
+
+/// What images of one camera agree on: the mean, weighted by their deviations, without those that contradict the others' focal length.
+/// (Deviations say nothing of errors that all matches of an image share: none is taken for smaller than 0.2 % of the focal length.)
+/// \return empty if there are no estimates
+HYBRIDGV_EXPORT std::optional<CameraEstimate> agree(const std::vector<CameraEstimate>& estimates);
+
+/// Localizes one of several images of a camera, of which they have agreed on an estimate. If it does not fit, the image is localized as
+/// if it were alone.
+HYBRIDGV_EXPORT QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query, const CameraEstimate& common,
+                                                const QueryOptions& options = {});
+
+/// Localizes several query images of **one camera**: each by itself first; then each once more with the camera on which they agree(). An
+/// image that this does not fit keeps its own. (Where there are too many for the memory, do the same with the functions above.)
 ///
 /// \return one for each query, in their order; all that were localized with the common camera have the same `camera`
 /// \throws std::invalid_argument as localizeQuery(), and if the queries' cameras differ

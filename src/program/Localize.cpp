@@ -1,0 +1,78 @@
+#include "Localize.hpp"
+
+#include <stdexcept>
+
+#include "LocalizeArguments.hpp"
+#include "LocalizeQueries.hpp"
+#include "LocalizeTable.hpp"
+#include "common/CommandLine.hpp"
+#include "common/ProgressBar.hpp"
+
+namespace program {
+namespace {
+
+using hybridgv::FocalPose;
+using hybridgv::NoncentralHybridAdapter;
+using hybridgv::sac::HybridRansacOptions;
+using hybridgv::sfm::LocalizationProblem;
+
+Localization localize(const NoncentralHybridAdapter& adapter, const std::optional<FocalPose>& reference,
+                      const HybridRansacOptions& options) {
+  Localization localization{hybridRansac(adapter, options), {}};
+  if (reference && localization.result.success) localization.error = poseError(localization.result.pose, *reference);
+  return localization;
+}
+
+NoncentralHybridAdapter pointsOnly(const NoncentralHybridAdapter& adapter) {
+  std::vector<Eigen::Vector3d> imagePoints, points;
+  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d3d(); ++i) {
+    imagePoints.push_back(adapter.getImagePoint2d3d(i));
+    points.push_back(adapter.getPoint(i));
+  }
+  return {{}, {}, {}, {}, {}, imagePoints, points};
+}
+
+Row localizeBothWays(LocalizationProblem problem, const LocalizeArguments& arguments) {
+  if (arguments.outlierShare > 0) problem = injectOutliers(problem, arguments.outlierShare, arguments.ransac.seed);
+  HybridRansacOptions p35pf = arguments.ransac;
+  p35pf.solvers = {{hybridgv::Solver::P35Pf, 1.0}};
+  const Localization hybrid = localize(problem.adapter, problem.reference, arguments.ransac);
+  const Localization reference = localize(pointsOnly(problem.adapter), problem.reference, p35pf);
+  return {std::move(problem), hybrid, reference};
+}
+
+void run(const LocalizeArguments& arguments) {
+  const std::vector<Query> queries = collectQueries(arguments);
+  if (queries.empty()) throw std::invalid_argument("nothing to localize");
+  ProgressBar progress(queries.size(), !arguments.quiet);
+  Summary hybrid, pointsOnly;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    progress.show(i);
+    const Row row = localizeBothWays(queries[i](), arguments);
+    hybrid.add(row.hybrid);
+    pointsOnly.add(row.pointsOnly);
+    progress.clear();
+    if (!arguments.json && i == 0) printHeader();
+    if (arguments.json)
+      printJson(row);
+    else
+      printRow(row);
+    flushOutput();
+  }
+  if (arguments.json) return;
+  hybrid.print("hybrid");
+  pointsOnly.print("2D-3D only");
+  flushOutput();
+}
+
+}  // namespace
+
+int runLocalize(std::vector<std::string> arguments) {
+  LocalizeArguments parsed;
+  const int exitCode = parseLocalize(std::move(arguments), parsed);
+  if (exitCode >= 0) return exitCode;
+  run(parsed);
+  return 0;
+}
+
+}  // namespace program
