@@ -59,7 +59,8 @@ std::size_t addCamera(SparseModel& model, const Camera& camera) {
 
 double errorOf(const QueryLocalization& localization, std::size_t i) {
   const NoncentralHybridAdapter& adapter = localization.problem.adapter;
-  return hybrid_pose::reprojectionError(localization.result.pose, adapter.getImagePoint2d3d(i), adapter.getPoint(i));
+  return hybrid_pose::reprojectionError(localization.result.pose, localization.result.distortion, adapter.getImagePoint2d3d(i),
+                                        adapter.getPoint(i));
 }
 
 // The 2D-3D inliers that become observations, best first; each keypoint and each point once.

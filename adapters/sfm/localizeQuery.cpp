@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -30,9 +31,38 @@ sac::HybridRansacOptions within(sac::HybridRansacOptions options, double smalles
 
 bool isRangeEmpty(const sac::HybridRansacOptions& options) { return !(options.minFocalLength < options.maxFocalLength); }
 
+double relativeDeviation(const sac::HybridRansacResult& result) {
+  return result.success ? result.focalLengthStandardDeviation / result.pose.focalLength : std::numeric_limits<double>::infinity();
+}
+
+// A result that hangs on few correspondences (its focal length would be far off without them) may be an optimum beside a better one:
+// other samples are tried, and the best determined result is taken.
+sac::HybridRansacResult searchWell(const LocalizationProblem& problem, sac::HybridRansacOptions options) {
+  constexpr double kDoubtful = 0.05;
+  constexpr int kMoreAttempts = 3;
+  sac::HybridRansacResult best = hybridRansac(problem.adapter, options);
+  const bool isHopeless = best.failureReason == sac::FailureReason::TooFewCorrespondences;
+  for (int i = 0; i < kMoreAttempts && !isHopeless && relativeDeviation(best) > kDoubtful; ++i) {
+    ++options.seed;
+    const sac::HybridRansacResult other = hybridRansac(problem.adapter, options);
+    if (relativeDeviation(other) < relativeDeviation(best)) best = other;
+  }
+  return best;
+}
+
 sac::HybridRansacResult searchNear(const LocalizationProblem& problem, double f, double factor, const QueryOptions& options) {
   const sac::HybridRansacOptions narrow = within(options.ransac, f / factor, f * factor);
-  return isRangeEmpty(narrow) ? sac::HybridRansacResult() : hybridRansac(problem.adapter, narrow);
+  return isRangeEmpty(narrow) ? sac::HybridRansacResult() : searchWell(problem, narrow);
+}
+
+// With what is known of the camera in general.
+QueryOptions forCamera(QueryOptions options, const QueryImage& query) {
+  const bool isUnknown = query.knowledge != CameraKnowledge::Known && options.estimateDistortion;
+  options.ransac.queryCamera = isUnknown ? sac::QueryCamera::Radial : sac::QueryCamera::Pinhole;
+  if (isUnknown && options.ransac.imageRadiusPx == 0)
+    options.ransac.imageRadiusPx =
+        std::hypot(static_cast<double>(query.camera.width), static_cast<double>(query.camera.height)) / 2;
+  return options;
 }
 
 sac::HybridRansacResult search(const LocalizationProblem& problem, const QueryImage& query, const QueryOptions& options) {
@@ -43,7 +73,7 @@ sac::HybridRansacResult search(const LocalizationProblem& problem, const QueryIm
     const sac::HybridRansacResult result = searchNear(problem, focalLength(query.camera), factor, options);
     if (result.success) return result;
   }
-  return hybridRansac(problem.adapter, options.ransac);
+  return searchWell(problem, options.ransac);
 }
 
 // Empty for a success.
@@ -100,13 +130,17 @@ void setCamera(const QueryImage& query, double f, double k1, QueryLocalization& 
 
 QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query, const QueryOptions& options) {
   checkOptions(options);
-  QueryLocalization localization{false, {}, makeLocalizationProblem(map, query, options.matches), {}, query.camera, 0, false, {}};
+  QueryLocalization localization{false, {}, makeLocalizationProblem(map, query, options.matches), {}, query.camera, 0, 0,
+                                 false, {}};
   const LocalizationProblem& problem = localization.problem;
-  localization.result = search(problem, query, options);
+  localization.result = search(problem, query, forCamera(options, query));
   localization.reason = reasonOf(query, problem, localization.result, options);
   localization.success = localization.reason.empty();
-  if (localization.success && query.knowledge != CameraKnowledge::Known)
-    setCamera(query, localization.result.pose.focalLength, 0, localization);
+  const sac::HybridRansacResult& result = localization.result;
+  if (localization.success && query.knowledge != CameraKnowledge::Known) {
+    setCamera(query, result.simpleRadialFocalLength, result.simpleRadialK1, localization);
+    localization.k1StandardDeviation = result.simpleRadialK1StandardDeviation;
+  }
   localization.pairs = reportPairs(map, query, problem, localization.result);
   return localization;
 }

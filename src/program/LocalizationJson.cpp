@@ -25,6 +25,7 @@ void addPose(const QueryLocalization& localization, Json& json) {
   json["focal_length_px"] = focalLength(camera);
   json["focal_length_std_px"] = localization.result.focalLengthStandardDeviation;
   json["radial_k"] = localization.k1;
+  json["radial_k_std"] = localization.k1StandardDeviation;
   json["qvec_wxyz"] = std::vector<double>(pose.begin(), pose.begin() + 4);
   json["tvec"] = std::vector<double>(pose.begin() + 4, pose.end());
   const Eigen::Vector3d& centre = localization.result.pose.position;

@@ -159,6 +159,7 @@ class Registration {
   void localize(const std::optional<CameraEstimate>& common, Outcome& outcome) const {
     if (!arguments_.estimateFocalLength) outcome.query.knowledge = CameraKnowledge::Known;
     QueryOptions options = arguments_.localization;
+    options.estimateDistortion = arguments_.estimateDistortion;
     const double side = static_cast<double>(std::max(outcome.query.camera.width, outcome.query.camera.height));
     if (side > 0) {
       options.ransac.minFocalLength = arguments_.minFocalRatio * side;

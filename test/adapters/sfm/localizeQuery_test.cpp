@@ -48,6 +48,40 @@ TEST(LocalizeQuery, FindsPoseAndCamera) {
   EXPECT_LT(test::median(rotation), 2e-3);
 }
 
+// Ignored, the distortion of this lens (k1 = -0.11) costs percents.
+TEST(LocalizeQuery, FindsDistortion) {
+  std::vector<double> focal, k1, ignored;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const QueryScene scene = makeNoisyScene(100 + i, CameraModel::SimpleRadial);
+    const QueryLocalization result = localizeQuery(scene.map, scene.query);
+    ASSERT_TRUE(result.success) << result.reason;
+    ASSERT_EQ(result.camera.parameters.size(), 4u);
+    EXPECT_EQ(result.camera.parameters[3], result.k1);
+    EXPECT_FALSE(result.distortionIsLost);
+    focal.push_back(focalErrorPercent(result, scene));
+    k1.push_back(result.k1);
+    QueryOptions pinhole;
+    pinhole.estimateDistortion = false;
+    const QueryLocalization wrong = localizeQuery(scene.map, scene.query, pinhole);
+    EXPECT_EQ(wrong.k1, 0);
+    ignored.push_back(wrong.success ? focalErrorPercent(wrong, scene) : 100);
+  }
+  EXPECT_LT(test::median(focal), 0.5);
+  EXPECT_GT(test::median(ignored), 1);
+  EXPECT_NEAR(test::median(k1), -0.11, 0.02);
+}
+
+// SIMPLE_PINHOLE has no place for it.
+TEST(LocalizeQuery, TellsThatDistortionIsLost) {
+  QueryScene scene = makeNoisyScene(120, CameraModel::SimpleRadial);
+  scene.query.camera.model = CameraModel::SimplePinhole;
+  scene.query.camera.parameters.pop_back();
+  const QueryLocalization result = localizeQuery(scene.map, scene.query);
+  ASSERT_TRUE(result.success) << result.reason;
+  EXPECT_TRUE(result.distortionIsLost);
+  EXPECT_EQ(result.camera.parameters.size(), 3u);
+}
+
 TEST(LocalizeQuery, PairsAddUp) {
   const QueryScene scene = makeNoisyScene(20, CameraModel::SimplePinhole);
   const QueryLocalization result = localizeQuery(scene.map, scene.query);

@@ -19,13 +19,15 @@ namespace sfm {
 /// How query images are localized.
 struct QueryOptions {
   LocalizationProblemOptions matches;  ///< how matches become correspondences
-  /// The search. What is known of a camera is set for every query; of the focal length's bounds the narrower ones count.
+  /// The search. What is known of a camera is set for every query (queryCamera, imageRadiusPx); of the focal length's bounds the
+  /// narrower ones count.
   sac::HybridRansacOptions ransac;
   /// How far a prior focal length may be wrong, as a share of it: three times that on either side is searched first, everything if
   /// that fails. (EXIF is often wrong by several percent.)
   double priorDeviation = 0.15;
-  int minInliers = 12;        ///< a success has so many inliers of both kinds together
-  double minInlierShare = 0;  ///< and they are so large a share of the correspondences
+  bool estimateDistortion = true;  ///< of cameras that are not known; it is kept only if the data speak for it
+  int minInliers = 12;             ///< a success has so many inliers of both kinds together
+  double minInlierShare = 0;       ///< and they are so large a share of the correspondences
 };
 
 /// What one image of the map has to do with a query.
@@ -44,9 +46,10 @@ struct QueryLocalization {
   sac::HybridRansacResult result;  ///< pose with covariance, inliers
   /// The query's camera, of the model that it was given, with what was found: COLMAP's parameters.
   Camera camera;
-  double k1 = 0;                  ///< distortion found; see distortionIsLost
-  bool distortionIsLost = false;  ///< the camera's model (SIMPLE_PINHOLE, PINHOLE) has no place for k1
-  std::vector<PairReport> pairs;  ///< one for each of QueryImage::matches
+  double k1 = 0;                   ///< distortion found; see distortionIsLost
+  double k1StandardDeviation = 0;  ///< of k1; 0 if there is none
+  bool distortionIsLost = false;   ///< the camera's model (SIMPLE_PINHOLE, PINHOLE) has no place for k1
+  std::vector<PairReport> pairs;   ///< one for each of QueryImage::matches
 };
 
 /// Localizes one query image.
