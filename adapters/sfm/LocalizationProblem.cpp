@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "CameraModels.hpp"
 #include "CheckArguments.hpp"
 #include "MapViews.hpp"
 #include "QueryCamera.hpp"
@@ -194,6 +195,9 @@ LocalizationProblem makeProblem(const SparseModel& map, const QueryImage& query,
   LocalizationProblem problem = toProblem(map, matcher.match());
   problem.imageName = query.name;
   problem.leftOut = matcher.leftOut();
+  problem.isUndistorted = query.knowledge == CameraKnowledge::Known;
+  problem.imageWidth = query.camera.width;
+  problem.imageHeight = query.camera.height;
   return problem;
 }
 
@@ -216,13 +220,14 @@ const TrackElement* firstSeenByOthers(const SparseModel& model, std::size_t poin
 }
 
 // An image of the map with what it shares with the others as its matches: every point once, with the first other image that sees it.
-QueryImage takeOut(const SparseModel& model, std::size_t index) {
+QueryImage takeOut(const SparseModel& model, std::size_t index, bool undistort) {
   const Image& image = model.images[index];
   QueryImage query;
   query.id = image.id;
   query.name = image.name;
   query.camera = cameraOf(model, index);
-  query.knowledge = CameraKnowledge::Known;
+  query.knowledge = undistort || !mapsAPlane(query.camera.model) ? CameraKnowledge::Known : CameraKnowledge::Unknown;
+  if (query.knowledge == CameraKnowledge::Unknown) forgetCalibration(query.camera);
   std::vector<ImageMatches> matches(model.images.size());
   for (std::size_t i = 0; i < image.observations.size(); ++i) {
     const Observation& o = image.observations[i];
@@ -260,8 +265,9 @@ LocalizationProblem makeLocalizationProblem(const SparseModel& model, std::size_
   if (!hasImagePlane(camera.model))
     throwInvalid("imageIndex", name + " has the camera model " + toString(camera.model) + " without an image plane");
   checkPose(model, imageIndex);
-  LocalizationProblem problem = makeProblem(model, takeOut(model, imageIndex), imageIndex, options);
+  LocalizationProblem problem = makeProblem(model, takeOut(model, imageIndex, options.undistortQuery), imageIndex, options);
   problem.reference = FocalPose{query.rotation, query.position, focalLength(camera)};
+  if (!problem.isUndistorted) problem.referenceK1 = firstDistortion(camera);
   return problem;
 }
 

@@ -1,5 +1,6 @@
 #include "QueryCamera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -50,6 +51,23 @@ QueryCamera::QueryCamera(const Camera& camera, CameraKnowledge knowledge)
   cx_ = camera.parameters[first];
   cy_ = camera.parameters[first + 1];
   aspect_ = camera.parameters[0] / camera.parameters[first - 1];
+}
+
+double firstDistortion(const Camera& camera) {
+  const std::size_t first = focalLengthCount(camera.model) + 2;
+  if (!mapsAPlane(camera.model) || first >= camera.parameters.size()) return 0;
+  return camera.model == CameraModel::NvmRadial ? -camera.parameters[first] : camera.parameters[first];
+}
+
+void forgetCalibration(Camera& camera) {
+  const bool hasSize = camera.width > 0 && camera.height > 0;
+  const std::size_t focalLengths = focalLengthCount(camera.model);
+  const double aspect = camera.parameters[0] / camera.parameters[focalLengths - 1];
+  const double f = hasSize ? static_cast<double>(std::max(camera.width, camera.height)) : 1;
+  const double cx = hasSize ? static_cast<double>(camera.width) / 2 : camera.parameters[focalLengths];
+  const double cy = hasSize ? static_cast<double>(camera.height) / 2 : camera.parameters[focalLengths + 1];
+  camera.model = CameraModel::Pinhole;
+  camera.parameters = {f, f / aspect, cx, cy};
 }
 
 bool hasDistortion(CameraModel model) { return model != CameraModel::SimplePinhole && model != CameraModel::Pinhole; }

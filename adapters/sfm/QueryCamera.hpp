@@ -33,6 +33,13 @@ class QueryCamera {
 // Of the models that can be estimated: is there a place for k1?
 bool hasDistortion(CameraModel model);
 
+// The camera's k1 as of SIMPLE_RADIAL, to first order; 0 if it has none.
+double firstDistortion(const Camera& camera);
+
+// Of a camera with an image plane (mapsAPlane): leaves it its size and the shape of its pixels, and where the size is unknown the principal point, for which nothing else can
+// stand.
+void forgetCalibration(Camera& camera);
+
 // The camera, of the same model and principal point, with this focal length (fx) and, where it has a place for it, this k1; no other
 // distortion.
 Camera estimatedCamera(const Camera& camera, double focalLength, double k1);

@@ -43,7 +43,8 @@ const char* const kNvmMatrices =
 const char* const kNvmTwoModels =
     "NVM_V3\n\n1\na.jpg 500 1 0 0 0 0 0 -5 0 0\n1\n0 0 1 9 9 9 1 0 3 10 20\n1\nb.jpg 5 1 0 0 0 0 0 0 0 0\n0\n0\n";
 const char* const kProblem =
-    "# problem\nquery 500 1 0 0 0 0 0 5\ncam 3 1 2 3\ncam 4 0 1 0\np3 10 20 1 2 3\np3 -10 2 1 3 3\np2 30 40 3 0 0 1\np2 3 4 4 1 "
+    "# problem\nquery 500 1 0 0 0 0 0 5\nimage 640 480\ncam 3 1 2 3\ncam 4 0 1 0 500 1 0 0 0\np3 10 20 1 2 3\np3 -10 2 1 3 3\np2 "
+    "30 40 3 0 0 1\np2 3 4 4 1 "
     "0 1\n";
 
 void write(const std::filesystem::path& file, const std::string& contents) {

@@ -11,6 +11,7 @@
 #include "SfmScene.hpp"
 #include "TemporaryFolder.hpp"
 #include "hybridgv/adapters/sfm/FileError.hpp"
+#include "hybridgv/adapters/sfm/ransacOptions.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 
 namespace hybridgv {
@@ -63,6 +64,77 @@ TEST(LocalizationProblem, ExactModelsGiveExactCorrespondences) {
     }
     for (std::size_t i = 0; i < problem.points2d2d.size(); ++i) EXPECT_LT(sampsonError(problem, i), 1e-8);
   }
+}
+
+LocalizationProblemOptions keepingDistortion() {
+  LocalizationProblemOptions options;
+  options.undistortQuery = false;
+  return options;
+}
+
+// Raw pixels, relative to the middle of the image: what is not undistorted uses nothing of the calibration but the pixels' shape.
+TEST(LocalizationProblem, KeepsTheQuerysDistortionIfAskedTo) {
+  const SparseModel model = makeModel(16);
+  for (std::size_t query = 0; query < model.images.size(); ++query) {
+    const Camera& camera = model.cameras[model.images[query].camera];
+    const LocalizationProblem problem = makeLocalizationProblem(model, query, keepingDistortion());
+    EXPECT_FALSE(problem.isUndistorted);
+    EXPECT_EQ(problem.imageWidth, camera.width);
+    EXPECT_EQ(problem.imageHeight, camera.height);
+    const bool hasTwo =
+        camera.model == CameraModel::Pinhole || camera.model == CameraModel::OpenCV || camera.model == CameraModel::NvmRadial;
+    const double aspect = hasTwo ? camera.parameters[0] / camera.parameters[1] : 1;
+    ASSERT_GT(problem.keypoints2d3d.size(), 20u);
+    for (std::size_t i = 0; i < problem.keypoints2d3d.size(); ++i) {
+      const Observation& o = model.images[query].observations[problem.keypoints2d3d[i]];
+      const Vector3d raw(o.x - static_cast<double>(camera.width) / 2, aspect * (o.y - static_cast<double>(camera.height) / 2), 1);
+      EXPECT_LT((problem.adapter.getImagePoint2d3d(i) - raw).norm(), 1e-9);
+    }
+    const LocalizationProblem undistorted = makeLocalizationProblem(model, query);
+    EXPECT_TRUE(undistorted.isUndistorted);
+    EXPECT_EQ(undistorted.referenceK1, 0);
+    if (camera.model == CameraModel::SimpleRadial) {
+      EXPECT_EQ(problem.referenceK1, camera.parameters[3]);
+    } else if (camera.model == CameraModel::NvmRadial) {
+      EXPECT_EQ(problem.referenceK1, -camera.parameters[4]);
+    } else if (camera.model == CameraModel::SimplePinhole) {
+      EXPECT_EQ(problem.referenceK1, 0);
+    }
+  }
+}
+
+TEST(LocalizationProblem, KeepsThePrincipalPointWhereTheImagesSizeIsUnknown) {
+  SparseModel model = makeModel(17);
+  for (Camera& camera : model.cameras) camera.width = camera.height = 0;
+  const Camera& camera = model.cameras[model.images[0].camera];
+  const LocalizationProblem problem = makeLocalizationProblem(model, 0, keepingDistortion());
+  ASSERT_EQ(camera.model, CameraModel::SimplePinhole);
+  const Observation& o = model.images[0].observations[problem.keypoints2d3d[0]];
+  EXPECT_LT((problem.adapter.getImagePoint2d3d(0) - Vector3d(o.x - camera.parameters[1], o.y - camera.parameters[2], 1)).norm(),
+            1e-9);
+  EXPECT_EQ(problem.imageWidth, 0u);
+}
+
+TEST(LocalizationProblem, FisheyeQueriesAreUndistortedInAnyCase) {
+  test::Random random(test::testSeed(), 18);
+  const SparseModel model = test::makeScene(random, 8, 150, 0.4, {CameraModel::OpenCVFisheye});
+  EXPECT_TRUE(makeLocalizationProblem(model, 0, keepingDistortion()).isUndistorted);
+}
+
+TEST(RansacOptions, FollowFromTheQuerysImage) {
+  const SparseModel model = makeModel(19);
+  LocalizationProblem problem = makeLocalizationProblem(model, 2, keepingDistortion());
+  sac::HybridRansacOptions options = ransacOptions(problem);
+  EXPECT_EQ(options.queryCamera, sac::QueryCamera::Radial);
+  EXPECT_NEAR(options.imageRadiusPx, std::hypot(1000, 800) / 2, 1e-9);
+  sac::HybridRansacOptions own;
+  own.imageRadiusPx = 700;
+  own.seed = 5;
+  EXPECT_EQ(ransacOptions(problem, own).imageRadiusPx, 700);
+  EXPECT_EQ(ransacOptions(problem, own).seed, 5u);
+  EXPECT_EQ(ransacOptions(makeLocalizationProblem(model, 2)).queryCamera, sac::QueryCamera::Pinhole);
+  problem.imageWidth = problem.imageHeight = 0;
+  EXPECT_EQ(ransacOptions(problem).imageRadiusPx, 0);
 }
 
 TEST(LocalizationProblem, MapImagesMayHaveAnyCameraModel) {
@@ -240,7 +312,11 @@ TEST(LocalizationProblem, HugeImageCoordinatesHaveADirection) {
   model.cameras.push_back(test::makeCamera(CameraModel::SimplePinhole));
   model.points.push_back({1, Vector3d(0, 0, 9), {}, -1, {{0, 0}, {1, 0}}});
   for (std::uint32_t i = 0; i < 2; ++i) {
-    model.images.push_back({i, "a", 0, true, Eigen::Matrix3d::Identity(), Vector3d::Zero(), {{1e200, 1e200, 0}}});
+    Image image;
+    image.id = i;
+    image.name = "a";
+    image.observations = {{1e200, 1e200, 0}};
+    model.images.push_back(image);
   }
   const LocalizationProblem problem = makeLocalizationProblem(model, 0);
   ASSERT_EQ(problem.adapter.getNumberCorrespondences2d2d(), 1u);
@@ -332,6 +408,8 @@ TEST(ProblemFile, KeepsTheProblem) {
   const LocalizationProblem read = readProblem(folder.file("some name.txt"));
   const NoncentralHybridAdapter &a = problem.adapter, &b = read.adapter;
   EXPECT_EQ(read.imageName, "some name");
+  EXPECT_EQ(read.imageWidth, problem.imageWidth);
+  EXPECT_EQ(read.imageHeight, problem.imageHeight);
   ASSERT_TRUE(read.reference);
   EXPECT_LT((read.reference->rotation - problem.reference->rotation).norm(), 1e-14);
   EXPECT_LT((read.reference->position - problem.reference->position).norm(), 1e-13);
@@ -342,6 +420,8 @@ TEST(ProblemFile, KeepsTheProblem) {
     EXPECT_EQ(a.getImagePoint2d2d(i), b.getImagePoint2d2d(i));
     EXPECT_EQ(a.getCamIndex(i), b.getCamIndex(i));
     EXPECT_EQ(a.getCamOffset(i), b.getCamOffset(i));
+    EXPECT_LT((a.getCamRotation(i) - b.getCamRotation(i)).norm(), 1e-14);
+    EXPECT_EQ(a.getRigFocalLength(i), b.getRigFocalLength(i));
     EXPECT_LT((a.getCamRotation(i) * a.getBearingVector(i) - b.getCamRotation(i) * b.getBearingVector(i)).norm(), 1e-15);
   }
   for (std::size_t i = 0; i < a.getNumberCorrespondences2d3d(); ++i) {
@@ -361,6 +441,25 @@ TEST(ProblemFile, PoseIsTheInverseOfFocalPose) {
   ASSERT_TRUE(problem.reference);
   EXPECT_LT((problem.reference->rotation - R.transpose()).norm(), 1e-15);
   EXPECT_LT((problem.reference->position + R.transpose() * Vector3d(1, 2, 5)).norm(), 1e-15);
+}
+
+// q = (1, 1, 1, 1) / 2 maps x -> y -> z -> x.
+TEST(ProblemFile, RigCamerasMayHaveFocalLengthAndRotation) {
+  const test::TemporaryFolder folder;
+  const LocalizationProblem problem = readProblem(
+      folder.write("a.txt",
+                   "cam 7 1 1 1 900 0.5 0.5 0.5 0.5 # calibrated\ncam 8 1 2 1 # not\nimage 640 480\ncam 9 0 0 0 0 1 0 0 0\n"
+                   "p2 1 2 7 0 3 4\np2 1 2 8 0 3 4\np2 1 2 9 0 3 4\n"));
+  const NoncentralHybridAdapter& adapter = problem.adapter;
+  EXPECT_EQ(adapter.getRigFocalLength(0), 900);
+  EXPECT_LT((adapter.getCamRotation(0) * Vector3d(1, 2, 3) - Vector3d(3, 1, 2)).norm(), 1e-14);
+  EXPECT_LT((adapter.getCamRotation(0) * adapter.getBearingVector(0) - Vector3d(0, 0.6, 0.8)).norm(), 1e-14);
+  EXPECT_EQ(adapter.getRigFocalLength(1), 0);
+  EXPECT_EQ(adapter.getRigFocalLength(2), 0);
+  EXPECT_EQ(adapter.getCamRotation(1), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(problem.imageWidth, 640u);
+  EXPECT_EQ(problem.imageHeight, 480u);
+  EXPECT_FALSE(problem.isUndistorted);
 }
 
 TEST(ProblemFile, NeedsNoReference) {

@@ -29,6 +29,10 @@ struct LocalizationProblemOptions {
   /// A keypoint that has a 2D-3D correspondence gets 2D-2D correspondences too. They add little beside the point, and double the
   /// weight of a mismatch.
   bool raysBesidePoints = false;
+  /// Leave-one-out: the distortion of the query is removed by its calibration, which a real query does not have. false: nothing but its
+  /// size and the shape of its pixels is used, and not even the principal point where the size is known. (Cameras whose distortion is
+  /// beyond what one parameter describes, of the models fisheye, FOV and so on, are undistorted in any case.)
+  bool undistortQuery = true;
 };
 
 /// Hybrid correspondences of one query image.
@@ -51,6 +55,13 @@ struct LocalizationProblem {
   std::vector<std::size_t> keypoints2d2d = {};
   std::vector<std::size_t> keypoints2d3d = {};  ///< for every 2D-3D correspondence: its keypoint (empty if read from a file)
   LeftOut leftOut = {};                         ///< what was not used, including what the query's reader has left out
+  /// Whether the query's image points are known to be free of distortion; otherwise hybridRansac should estimate it (ransacOptions()).
+  bool isUndistorted = false;
+  std::uint64_t imageWidth = 0;   ///< [px] of the query's image, 0 = unknown
+  std::uint64_t imageHeight = 0;  ///< [px] of the query's image, 0 = unknown
+  /// k1 of the query's camera according to the model, of COLMAP's SIMPLE_RADIAL and the like: what belongs to `reference`. 0 if the image
+  /// points are undistorted.
+  double referenceK1 = 0;
 };
 
 /// Makes `model.images[imageIndex]` a query of unknown pose and focal length, and the other images the rig (leave-one-out).
@@ -108,12 +119,13 @@ HYBRIDGV_EXPORT LocalizationProblem injectOutliers(const LocalizationProblem& pr
 /// Reads the text format of problems. Lines, in any order, `#` starts a comment:
 ///
 ///     query f qw qx qy qz tx ty tz   at most one: reference, focal length [px] and x_query = R(q) X + t, the inverse of FocalPose
-///     cam id cx cy cz                a rig camera and its centre
-///     p3 u v X Y Z                   2D-3D: image point [px], undistorted, relative to the principal point; point of the rig
+///     image width height             at most one: size of the query's image [px]
+///     cam id cx cy cz [f qw qx qy qz]   a rig camera, its centre; its focal length (0 = unknown) and rotation, x_rig = R(q) x_cam
+///     p3 u v X Y Z                   2D-3D: image point [px], relative to the principal point; point of the rig
 ///     p2 u v camid qx qy qz          2D-2D: image point; direction of the ray in the rig's frame, from that camera's centre
 ///
-/// The rig cameras' frames are parallel to the rig's, their focal lengths unknown. imageName is the file's name without folder
-/// and extension.
+/// Image points may be raw or undistorted. A rig camera without rotation has a frame parallel to the rig's, one without focal length an
+/// unknown one. imageName is the file's name without folder and extension.
 ///
 /// \param report  what was mended (byte order marks, 128.0 for an integer); may be null
 /// \throws FileError for a malformed file
