@@ -7,4 +7,4 @@ cmake --preset tidy -G Ninja
 cmake --build build/tidy -j "$(nproc)"
 cppcheck --quiet --error-exitcode=1 --std=c++17 --language=c++ -j "$(nproc)" --enable=warning,performance,portability \
   --suppressions-list=.ci/cppcheck-suppressions.txt -I src -I include -I build/tidy/include -I adapters/arrays/include \
-  -I adapters/sfm/include src adapters
+  -I adapters/sfm/include -I adapters/colmap/include src adapters

@@ -1,6 +1,7 @@
 include(CMakePackageConfigHelpers)
 
-# Component runtime: what a program needs to run; development: what it needs to be built.
+# Component runtime: what a program needs to run; development: what it needs to be built; colmap: the library that needs SQLite;
+# program: the program hybridgv.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hybridgv)
 install(TARGETS hybridgv EXPORT hybridgvTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development
@@ -8,9 +9,38 @@ install(TARGETS hybridgv EXPORT hybridgvTargets
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(EXPORT hybridgvTargets NAMESPACE hybridgv:: DESTINATION ${package_dir} COMPONENT development)
 export(EXPORT hybridgvTargets NAMESPACE hybridgv:: FILE ${PROJECT_BINARY_DIR}/hybridgvTargets.cmake)
+# Outside of the system's folders, what is installed finds its libraries beside itself, wherever the prefix is moved.
+function(hybridgv_find_libraries_at target folder)
+  if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN${folder}")
+  endif()
+endfunction()
+set(colmap_headers "")
+if(HYBRIDGV_WITH_COLMAP)
+  install(TARGETS hybridgv_colmap EXPORT hybridgvColmapTargets
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT colmap NAMELINK_COMPONENT development
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT colmap)
+  install(EXPORT hybridgvColmapTargets NAMESPACE hybridgv:: DESTINATION ${package_dir} COMPONENT development)
+  export(EXPORT hybridgvColmapTargets NAMESPACE hybridgv:: FILE ${PROJECT_BINARY_DIR}/hybridgvColmapTargets.cmake)
+  hybridgv_find_libraries_at(hybridgv_colmap "")
+  set(colmap_headers ${PROJECT_SOURCE_DIR}/adapters/colmap/include)
+endif()
+if(HYBRIDGV_WITH_PROGRAM)
+  install(TARGETS hybridgv_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  file(RELATIVE_PATH libraries_from_programs /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+  hybridgv_find_libraries_at(hybridgv_program "/${libraries_from_programs}")
+  install(FILES ${HYBRIDGV_DEFAULT_MAP_DIR}/cameras.txt ${HYBRIDGV_DEFAULT_MAP_DIR}/images.txt ${HYBRIDGV_DEFAULT_MAP_DIR}/points3D.txt
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/hybridgv/default_map COMPONENT program)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/program/completion/hybridgv
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  if(HYBRIDGV_MAN_PAGES)
+    install(FILES ${HYBRIDGV_MAN_PAGES} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  endif()
+endif()
 foreach(root ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/adapters/arrays/include
              ${PROJECT_SOURCE_DIR}/adapters/opengv/include ${PROJECT_SOURCE_DIR}/adapters/sfm/include
-             ${PROJECT_BINARY_DIR}/include)
+             ${colmap_headers} ${PROJECT_BINARY_DIR}/include)
   install(DIRECTORY ${root}/hybridgv DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 endforeach()
 
@@ -30,6 +60,10 @@ if(library_type STREQUAL "STATIC_LIBRARY")
   set(definitions_of_pc " -DHYBRIDGV_STATIC")
 endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgv.pc.in ${PROJECT_BINARY_DIR}/hybridgv.pc @ONLY)
+if(HYBRIDGV_WITH_COLMAP)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/hybridgv_colmap.pc.in ${PROJECT_BINARY_DIR}/hybridgv_colmap.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/hybridgv_colmap.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/hybridgv.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)

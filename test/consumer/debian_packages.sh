@@ -6,7 +6,7 @@ set -e
 packages=$(cd "$1" && pwd)
 cd "$(dirname "$0")"
 apt-get update -qq
-DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends g++ cmake make pkg-config "$packages"/libhybridgv*.deb
+DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends g++ cmake make pkg-config "$packages"/libhybridgv*.deb "$packages"/hybridgv*.deb
 grep -H . /var/lib/dpkg/info/libhybridgv0*.shlibs  # what packages of programs that use the library will depend on
 build=$(mktemp -d)
 sh ./check.sh "$build/core" "headers core"
@@ -14,5 +14,7 @@ sh ./check.sh "$build/loops" loops
 g++ -std=c++17 core.cpp -o "$build/with_pkg_config" $(pkg-config --cflags --libs hybridgv)
 "$build/with_pkg_config"
 rm -r "$build"
-apt-get purge -y -qq libhybridgv-dev 'libhybridgv0*'
+hybridgv --version
+hybridgv localize --query 3
+apt-get purge -y -qq hybridgv libhybridgv-dev 'libhybridgv-colmap0*' 'libhybridgv0*'
 echo "packages installed, used and removed"

@@ -17,6 +17,9 @@ set(same_compiler -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
 set(installed -DCMAKE_PREFIX_PATH=${consumer_prefix})
 hybridgv_consumer_test(without_opengv "headers core" ${same_compiler} ${installed} -DEXPECT_OPENGV=OFF
                        -DCMAKE_DISABLE_FIND_PACKAGE_opengv=ON)
+if(HYBRIDGV_WITH_COLMAP)
+  hybridgv_consumer_test(colmap colmap ${same_compiler} ${installed} -DEXPECT_OPENGV=OFF -DCMAKE_DISABLE_FIND_PACKAGE_opengv=ON)
+endif()
 # Asking for the bridge where there is no OpenGV is answered by the reason.
 foreach(component opengv typo)
   add_test(NAME consumer_missing_${component}
