@@ -1,5 +1,7 @@
 #include "Localize.hpp"
 
+#include <hybridgv/adapters/sfm/ransacOptions.hpp>
+
 #include <stdexcept>
 
 #include "LocalizeArguments.hpp"
@@ -19,7 +21,10 @@ using hybridgv::sfm::LocalizationProblem;
 Localization localize(const NoncentralHybridAdapter& adapter, const std::optional<FocalPose>& reference,
                       const HybridRansacOptions& options) {
   Localization localization{hybridRansac(adapter, options), {}};
-  if (reference && localization.result.success) localization.error = poseError(localization.result.pose, *reference);
+  if (!reference || !localization.result.success) return localization;
+  FocalPose pose = localization.result.pose;
+  pose.focalLength = localization.result.simpleRadialFocalLength;  // as the map's programs mean it
+  localization.error = poseError(pose, *reference);
   return localization;
 }
 
@@ -34,9 +39,11 @@ NoncentralHybridAdapter pointsOnly(const NoncentralHybridAdapter& adapter) {
 
 Row localizeBothWays(LocalizationProblem problem, const LocalizeArguments& arguments) {
   if (arguments.outlierShare > 0) problem = injectOutliers(problem, arguments.outlierShare, arguments.ransac.seed);
-  HybridRansacOptions p35pf = arguments.ransac;
+  HybridRansacOptions options = ransacOptions(problem, arguments.ransac);
+  if (arguments.queryCamera == "pinhole") options.queryCamera = hybridgv::sac::QueryCamera::Pinhole;
+  HybridRansacOptions p35pf = options;
   p35pf.solvers = {{hybridgv::Solver::P35Pf, 1.0}};
-  const Localization hybrid = localize(problem.adapter, problem.reference, arguments.ransac);
+  const Localization hybrid = localize(problem.adapter, problem.reference, options);
   const Localization reference = localize(pointsOnly(problem.adapter), problem.reference, p35pf);
   return {std::move(problem), hybrid, reference};
 }

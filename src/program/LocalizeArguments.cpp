@@ -36,8 +36,10 @@ std::string defaultMap() {
 
 int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) {
   CLI::App app{
-      "Localizes images of unknown focal length against a map, from 2D-2D and 2D-3D matches together (hybrid LO-RANSAC),\n"
-      "and compares with what the 2D-3D matches alone give on the same data (P3.5Pf). Each query is left out of the map.\n"
+      "Localizes images of unknown focal length and distortion against a map, from 2D-2D and 2D-3D matches together (hybrid "
+      "LO-RANSAC),\n"
+      "and compares with what the 2D-3D matches alone give on the same data (P3.5Pf). Each query is left out of the map, and of\n"
+      "its calibration nothing is used but the size of the image. Focal length and k1 are those of COLMAP's SIMPLE_RADIAL.\n"
       "Without an argument it runs on a small map that comes with the library.\n",
       "hybridgv localize"};
   app.add_option("input", arguments.inputs,
@@ -46,6 +48,13 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
   app.add_flag("--stdin", arguments.readStandardInput,
                "read query names (if a map is given) or problem files from standard input, one a line");
   app.add_option("-s,--solver", arguments.solver, "minimal solver: " + solverNames())->check(checkSolver)->capture_default_str();
+  app.add_option("--query-camera", arguments.queryCamera,
+                 "radial: the lens distortion is found too, and kept if the data speak for it; pinhole: there is none")
+      ->check(CLI::IsMember({"radial", "pinhole"}))
+      ->capture_default_str();
+  arguments.matches.undistortQuery = false;
+  app.add_flag("--undistort-query", arguments.matches.undistortQuery,
+               "remove the distortion of a query from the map by its calibration, and use its principal point");
   hybridgv::sac::HybridRansacOptions& ransac = arguments.ransac;
   addNumber(app, "--max-reprojection-error", ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]",
             "positive and finite", isPositive);

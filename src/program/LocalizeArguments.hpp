@@ -13,6 +13,7 @@ struct LocalizeArguments {
   std::vector<std::string> inputs;
   std::vector<std::string> queries;
   std::string solver = "all";
+  std::string queryCamera = "radial";
   hybridgv::sfm::LocalizationProblemOptions matches;
   hybridgv::sfm::ReadOptions reading;
   hybridgv::sac::HybridRansacOptions ransac;

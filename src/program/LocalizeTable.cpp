@@ -16,22 +16,45 @@ using hybridgv::NoncentralHybridAdapter;
 using hybridgv::sac::HybridRansacResult;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kNameWidth = 17;
+constexpr std::size_t kNameWidth = 13;
 
 std::string share(int inliers, std::size_t all) { return std::to_string(inliers) + "/" + std::to_string(all); }
 
 void printErrors(const std::optional<PoseError>& error) {
   if (error)
-    std::printf(" %6.2f %6.3f %8.4f", error->focalPercent, error->rotationDeg, error->position);
+    std::printf(" %5.2f %5.3f %7.4f", error->focalPercent, error->rotationDeg, error->position);
   else
-    std::printf(" %6s %6s %8s", "-", "-", "-");
+    std::printf(" %5s %5s %7s", "-", "-", "-");
+}
+
+// k1, its deviation, and what the map says.
+void printDistortion(const Row& row) {
+  const HybridRansacResult& result = row.hybrid.result;
+  if (result.success)
+    std::printf(" %6.3f %5.3f", result.simpleRadialK1, result.simpleRadialK1StandardDeviation);
+  else
+    std::printf(" %6s %5s", "-", "-");
+  if (row.problem.referenceK1)
+    std::printf(" %6.3f", *row.problem.referenceK1);
+  else
+    std::printf(" %6s", "-");
+}
+
+// Of the 2D-3D matches alone: the error, or without a reference the focal length.
+void printPointsOnly(const Localization& localization) {
+  if (!localization.result.success)
+    std::printf(" failed\n");
+  else if (localization.error)
+    std::printf(" %6.2f\n", localization.error->focalPercent);
+  else
+    std::printf(" %6.0f\n", localization.result.simpleRadialFocalLength);
 }
 
 void printFocalLength(const HybridRansacResult& result) {
   if (result.success)
-    std::printf(" %7.1f", result.pose.focalLength);
+    std::printf(" %6.1f", result.simpleRadialFocalLength);
   else
-    std::printf(" %7s", "failed");
+    std::printf(" %6s", "failed");
 }
 
 Json toJson(const Localization& localization) {
@@ -40,8 +63,10 @@ Json toJson(const Localization& localization) {
   if (!result.success) json["failure_reason"] = toString(result.failureReason);
   if (result.success) {
     const FocalPose& pose = result.pose;
-    json["focal_length_px"] = pose.focalLength;
+    json["focal_length_px"] = result.simpleRadialFocalLength;
     json["focal_length_std_px"] = result.focalLengthStandardDeviation;
+    json["radial_k"] = result.simpleRadialK1;
+    json["radial_k_std"] = result.simpleRadialK1StandardDeviation;
     json["rotation_query_to_rig"] = std::vector<double>(pose.rotation.data(), pose.rotation.data() + 9);  // column by column
     json["position"] = std::vector<double>(pose.position.data(), pose.position.data() + 3);
   }
@@ -60,33 +85,30 @@ Json toJson(const Localization& localization) {
 }  // namespace
 
 void printHeader() {
-  std::printf("%-17s %7s | %7s %6s %6s %6s %8s %8s %8s | %s\n", "", "", "hybrid", "", "", "", "", "inliers", "inliers",
-              "2D-3D only");
-  std::printf("%-17s %7s | %7s %6s %6s %6s %8s %8s %8s | %7s %6s\n", "query", "f ref", "f px", "+- px", "df %", "dR deg", "dpos",
-              "2D-2D", "2D-3D", "f px", "df %");
+  std::printf("%-13s %6s | %6s %5s %5s %5s %7s %6s %5s %6s %7s %7s | %s\n", "", "", "hybrid", "", "", "", "", "", "", "",
+              "inliers", "inliers", "2D-3D");
+  std::printf("%-13s %6s | %6s %5s %5s %5s %7s %6s %5s %6s %7s %7s | %6s\n", "query", "f ref", "f px", "+- px", "df %", "dR",
+              "dpos", "k1", "+-", "k1 ref", "2D-2D", "2D-3D", "df %");
 }
 
 void printRow(const Row& row) {
   const HybridRansacResult& hybrid = row.hybrid.result;
   const NoncentralHybridAdapter& adapter = row.problem.adapter;
-  std::printf("%-17s", shortened(row.problem.imageName, kNameWidth).c_str());
+  std::printf("%-13s", shortened(row.problem.imageName, kNameWidth).c_str());
   if (row.problem.reference)
-    std::printf(" %7.1f |", row.problem.reference->focalLength);
+    std::printf(" %6.1f |", row.problem.reference->focalLength);
   else
-    std::printf(" %7s |", "-");
+    std::printf(" %6s |", "-");
   printFocalLength(hybrid);
   if (hybrid.success)
-    std::printf(" %6.1f", hybrid.focalLengthStandardDeviation);
+    std::printf(" %5.1f", hybrid.focalLengthStandardDeviation);
   else
-    std::printf(" %6s", "-");
+    std::printf(" %5s", "-");
   printErrors(row.hybrid.error);
-  std::printf(" %8s %8s |", share(hybrid.numberInliers2d2d, adapter.getNumberCorrespondences2d2d()).c_str(),
+  printDistortion(row);
+  std::printf(" %7s %7s |", share(hybrid.numberInliers2d2d, adapter.getNumberCorrespondences2d2d()).c_str(),
               share(hybrid.numberInliers2d3d, adapter.getNumberCorrespondences2d3d()).c_str());
-  printFocalLength(row.pointsOnly.result);
-  if (row.pointsOnly.error)
-    std::printf(" %6.2f\n", row.pointsOnly.error->focalPercent);
-  else
-    std::printf(" %6s\n", "-");
+  printPointsOnly(row.pointsOnly);
 }
 
 void printJson(const Row& row) {
@@ -94,6 +116,7 @@ void printJson(const Row& row) {
             {"matches_2d2d", row.problem.adapter.getNumberCorrespondences2d2d()},
             {"matches_2d3d", row.problem.adapter.getNumberCorrespondences2d3d()}};
   if (row.problem.reference) json["reference_focal_length_px"] = row.problem.reference->focalLength;
+  if (row.problem.referenceK1) json["reference_radial_k"] = *row.problem.referenceK1;
   json["hybrid"] = toJson(row.hybrid);
   json["points_only"] = toJson(row.pointsOnly);
   // Names need not be UTF-8, of which JSON consists.

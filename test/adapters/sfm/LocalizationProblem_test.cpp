@@ -92,7 +92,7 @@ TEST(LocalizationProblem, KeepsTheQuerysDistortionIfAskedTo) {
     }
     const LocalizationProblem undistorted = makeLocalizationProblem(model, query);
     EXPECT_TRUE(undistorted.isUndistorted);
-    EXPECT_EQ(undistorted.referenceK1, 0);
+    EXPECT_FALSE(undistorted.referenceK1);
     if (camera.model == CameraModel::SimpleRadial) {
       EXPECT_EQ(problem.referenceK1, camera.parameters[3]);
     } else if (camera.model == CameraModel::NvmRadial) {

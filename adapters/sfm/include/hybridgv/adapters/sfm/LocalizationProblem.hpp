@@ -59,9 +59,9 @@ struct LocalizationProblem {
   bool isUndistorted = false;
   std::uint64_t imageWidth = 0;   ///< [px] of the query's image, 0 = unknown
   std::uint64_t imageHeight = 0;  ///< [px] of the query's image, 0 = unknown
-  /// k1 of the query's camera according to the model, of COLMAP's SIMPLE_RADIAL and the like: what belongs to `reference`. 0 if the image
-  /// points are undistorted.
-  double referenceK1 = 0;
+  /// k1 of the query's camera according to the model, of COLMAP's SIMPLE_RADIAL and the like: what belongs to `reference`. Empty if the
+  /// image points are undistorted.
+  std::optional<double> referenceK1 = {};
 };
 
 /// Makes `model.images[imageIndex]` a query of unknown pose and focal length, and the other images the rig (leave-one-out).
