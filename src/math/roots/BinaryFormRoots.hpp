@@ -119,6 +119,12 @@ class BinaryFormRoots {
         roots);
   }
 
+  // The roots on the arc from v0 to v1, two directions less than 180 degrees apart, in order along it.
+  template <class Sample>
+  static int findSampledBetween(const Sample& sample, const Direction& v0, const Direction& v1, Direction* roots) {
+    return Search<Sample>(sample, roots).run(v0, v1);
+  }
+
  private:
   // Uncertainty of the samples, relative to the largest.
   static constexpr double kTau = 1e-12;
@@ -162,8 +168,10 @@ class BinaryFormRoots {
    public:
     Search(const Sample& sample, Direction* roots) : sample_(sample), roots_(roots) {}
     int run();
+    int run(const Direction& v0, const Direction& v1);
 
    private:
+    void between(const Direction& v0, const Direction& v1, int level);
     void arcs(const double* p, const double* c, const double* s, int arcCount, int level);
     void pieces(const Piece& arc, int level);
     void anew(const Piece& piece, int level);
@@ -269,26 +277,40 @@ void BinaryFormRoots<D>::scale(double* p, const double* length) {
   }
 }
 
-// Samples the form at D+1 directions v = alpha v0 + beta v1 of which the first few lie on the piece from v0 to v1: a linear map
-// takes the arc from psi_0 to psi_kArcs to the piece.
 template <int D>
 template <class Sample>
-void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
+int BinaryFormRoots<D>::Search<Sample>::run(const Direction& v0, const Direction& v1) {
+  between(v0, v1, 0);
+  simple_.refine();
+  return count_;
+}
+
+// Samples the form at D+1 directions v = alpha v0 + beta v1 of which the first few lie between v0 and v1, which may have any
+// lengths: a linear map takes the arc from psi_0 to psi_kArcs to the one between them.
+template <int D>
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::between(const Direction& v0, const Direction& v1, int level) {
   const Tables& tables = Tables::get();
   constexpr int kArcs = kSamples / 2;
   const double cEnd = tables.c[kArcs], sEnd = tables.s[kArcs];
   double c[kPadded], s[kPadded], unitC[kPadded], unitS[kPadded], length[kPadded], p[kPadded];
   for (int j = 0; j < kPadded; ++j) {
     const double beta = tables.s[j] / sEnd, alpha = tables.c[j] - beta * cEnd;
-    c[j] = alpha * piece.c0 + beta * piece.c1;
-    s[j] = alpha * piece.s0 + beta * piece.s1;
+    c[j] = alpha * v0.c + beta * v1.c;
+    s[j] = alpha * v0.s + beta * v1.s;
   }
   normalize(c, s, unitC, unitS, length);
   ++samplings_;
   sample_(unitC, unitS, p);
   scale(p, length);
+  arcs(p, c, s, kArcs, level);
+}
+
+template <int D>
+template <class Sample>
+void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
   const int before = count_;
-  arcs(p, c, s, kArcs, level + 1);
+  between({piece.c0, piece.s0}, {piece.c1, piece.s1}, level + 1);
   if (count_ == before) {
     const int i = piece.smallest();
     add((D - i) * piece.c0 + i * piece.c1, (D - i) * piece.s0 + i * piece.s1);

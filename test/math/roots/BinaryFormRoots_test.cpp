@@ -115,6 +115,81 @@ TEST(BinaryFormRoots, DoesNotLoseDoubleRoots) {
   }
 }
 
+// Two roots a little apart, which inaccurate coefficients hide. They are determined to about 1e-15 / separation.
+template <int D>
+void expectClosePairsAreFound() {
+  Random random(testSeed(), 20 + D);
+  for (const double separation : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
+    for (int trial = 0; trial < 200; ++trial) {
+      const double angle = random.uniform(0, kPi);
+      SCOPED_TRACE(separation);
+      Form form{{angle, angle + separation}, (D - 2) / 2};
+      if (D % 2 == 1) form.angles.push_back(angle + 1);
+      const std::vector<Direction> found = roots<D>(form);
+      const double accuracy = std::max(1e-10 / separation, 1e-10);
+      for (const double root : form.angles) EXPECT_LT(distanceToNearest(found, root), accuracy) << "degree " << D;
+    }
+}
+
+TEST(BinaryFormRoots, FindsCloseRootsInEveryDegree) {
+  expectClosePairsAreFound<9>();
+  expectClosePairsAreFound<10>();
+  expectClosePairsAreFound<12>();
+  expectClosePairsAreFound<14>();
+  expectClosePairsAreFound<16>();
+  expectClosePairsAreFound<20>();
+}
+
+// The Bernstein coefficients of a form that is a power of one linear form are known.
+TEST(BinaryFormRoots, BernsteinCoefficientsAreExactToRounding) {
+  for (int degree = 4; degree <= 20; ++degree) {
+    const int first = 1 - (degree + 1) / 2, count = degree + 1;
+    std::vector<double> matrix(static_cast<std::size_t>(count * count));
+    bernsteinMatrix(degree, first, matrix.data());
+    const double w = kPi / count;
+    for (const double angle : {0.3, 1.2, 2.9})
+      for (int i = 0; i < count; ++i) {
+        double coefficient = 0;
+        for (int k = 0; k < count; ++k)
+          coefficient += matrix[static_cast<std::size_t>(i * count + k)] * std::pow(std::cos((first + k) * w - angle), degree);
+        const double expected = std::pow(std::cos(angle), degree - i) * std::pow(std::cos(w - angle), i);
+        EXPECT_NEAR(coefficient, expected, 2e-14) << degree << " " << i;
+      }
+  }
+}
+
+template <int D>
+void expectRootsBetween(const Form& form, double from, double to) {
+  Direction found[BinaryFormRoots<D>::kMaxRoots];
+  const int count = BinaryFormRoots<D>::findSampledBetween(
+      [&](const double* c, const double* s, double* p) {
+        for (int j = 0; j < BinaryFormRoots<D>::kSamples; ++j) p[j] = form(c[j], s[j]);
+      },
+      {std::cos(from), std::sin(from)}, {std::cos(to), std::sin(to)}, found);
+  const std::vector<Direction> list(found, found + count);
+  int inside = 0;
+  for (const double angle : form.angles) {
+    if (std::min(std::abs(angle - from), std::abs(angle - to)) < 1e-6) return;  // either is right
+    if (angle < from || angle > to) continue;
+    ++inside;
+    EXPECT_LT(distanceToNearest(list, angle), 1e-6) << "lost the root " << angle;
+  }
+  EXPECT_EQ(count, inside);
+}
+
+TEST(BinaryFormRoots, FindsTheRootsOfAnArcAndNoOthers) {
+  Random random(testSeed(), 7);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double from = random.uniform(0, 1), to = from + random.uniform(0.05, 2);
+    Form form{{}, 6};
+    for (int i = 0; i < 4; ++i) form.angles.push_back(kPi * (i + random.uniform(0.05, 0.95)) / 4);
+    SCOPED_TRACE(trial);
+    expectRootsBetween<16>(form, from, to);
+    form.definiteFactors = 3;
+    expectRootsBetween<10>(form, from, to);
+  }
+}
+
 TEST(BinaryFormRoots, FindsAllRootsOfASquare) {
   Random random(testSeed(), 3);
   for (int trial = 0; trial < 500; ++trial) {
