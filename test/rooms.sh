@@ -10,7 +10,7 @@ math/roots math/dixon math/homotopy
 correspondences
 solvers
 solvers/complex_rays
-solvers/three_points solvers/one_centre solvers/h32f solvers/h51f solvers/h70f
+solvers/three_points solvers/one_centre solvers/h32f solvers/h51f solvers/h70f solvers/known_focal
 robust/kernels
 robust
 hybrid_pose

@@ -65,7 +65,7 @@ static_assert(alignof(FocalPose) == alignof(double) && sizeof(FocalPose) == 13 *
 static_assert(alignof(CamFromWorld) == alignof(double) && sizeof(CamFromWorld) == 12 * sizeof(double),
               "hybridgv::CamFromWorld must not depend on Eigen's alignment settings");
 
-/// The minimal solvers. HmnF takes m 2D-2D and n 2D-3D correspondences.
+/// The minimal solvers. HmnF takes m 2D-2D and n 2D-3D correspondences, and finds the focal length; those without an F need it.
 enum class Solver {
   P4Pf,   ///< 4 2D-3D, at most 6 solutions
   P35Pf,  ///< 4 2D-3D of which the last gives one equation only, at most 10 solutions
@@ -73,6 +73,7 @@ enum class Solver {
   H32f,   ///< 3 2D-2D and 2 2D-3D, at most 26 solutions
   H51f,   ///< 5 2D-2D and 1 2D-3D, at most 56 solutions (9 if the five rays share one centre)
   H70f,   ///< 7 2D-2D, at most 118 solutions (9 if six of the rays share one centre)
+  P3P,    ///< 3 2D-3D with known focal length, at most 4 solutions
 };
 
 /// All of them, in the order of the enumerators.

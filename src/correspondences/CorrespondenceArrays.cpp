@@ -123,8 +123,6 @@ void CorrespondenceArrays::fillPointColumns() {
   }
 }
 
-// About the width of the image: twice the largest coordinate, if the image points reach the image's border evenly. A few points far
-// away must not decide.
 double CorrespondenceArrays::imageSize() const {
   constexpr double kShare = 0.95;
   std::vector<double> coordinates;

@@ -41,6 +41,9 @@ class CorrespondenceArrays {
   // A rig camera of unknown focal length then has about the width of the query's image as its own. It must not follow the query's
   // focal length: the Sampson error of any data vanishes as that goes to 0, and falls as it grows.
   void fixUnknownFocalLengths();
+  // About the width of the query's image: twice the largest coordinate, if the image points reach the image's border evenly. A few
+  // points far away do not decide. 0 if there are none.
+  double imageSize() const;
 
   // How far image points are from the principal point: the largest distance, but at most twice the 95 % quantile of the distances, so
   // that a few far away do not decide. 0 without image points.
@@ -59,7 +62,6 @@ class CorrespondenceArrays {
   CorrespondenceArrays() = default;
   void normalize();
   void fillRayColumns(const std::vector<RigRay>& rays);
-  double imageSize() const;
   void fillPointColumns();
 
   Normalization normalization_;

@@ -17,9 +17,10 @@ bool overflows(const FocalPose& pose) {
   return !std::isfinite(pose.focalLength) || !pose.position.allFinite() || !pose.rotation.allFinite();
 }
 
-FocalPoses solve(const MinimalSolver& solver, const Sample& sample) {
+FocalPoses solve(const MinimalSolver& solver, const Sample& sample, double focalLength) {
   FocalPoses solutions(static_cast<std::size_t>(solver.maxSolutions));
-  solutions.resize(static_cast<std::size_t>(solver.solve(sample.rays.data(), sample.points.data(), solutions.data())));
+  const int count = solvers::solve(solver, sample.rays.data(), sample.points.data(), focalLength, solutions.data());
+  solutions.resize(static_cast<std::size_t>(count));
   solutions.erase(std::remove_if(solutions.begin(), solutions.end(), overflows), solutions.end());
   return solutions;
 }
@@ -33,22 +34,26 @@ FocalPoses solve(const MinimalSolver& solver, const Sample& sample) {
                               problem.name() + " needs " + std::to_string(problem.rays()) + " rays of one camera");
 }
 
-static FocalPoses solve(const SolverRows& problem, const Sample& sample, const std::vector<int>& rayIndices) {
+static FocalPoses solve(const SolverRows& problem, const Sample& sample, const std::vector<int>& rayIndices, double focalLength) {
   const MinimalSolver* const solver = problem.forSample(sample.rays.data());
   if (!solver) refuseSeveralCameras(problem, sample, rayIndices);
-  return solve(*solver, sample);
+  return solve(*solver, sample, focalLength);
 }
 
-FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices) {
+FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
+                 double focalLength) {
+  checkPositive("focalLength", focalLength);
   const correspondences::Counts counts = correspondences::readCounts(adapter);
   checkMultiIndices("indices", indices, {problem.rays(), problem.points()}, {counts.rays, counts.points});
   Sample sample;
   correspondences::readSampleRays(adapter, indices[0].data(), problem.rays(), sample.rays.data());
   correspondences::readSamplePoints(adapter, indices[1].data(), problem.points(), sample.points.data());
-  return solve(problem, sample, indices[0]);
+  return solve(problem, sample, indices[0], focalLength);
 }
 
-FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<int>& indices) {
+FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, const std::vector<int>& indices,
+                 double focalLength) {
+  checkPositive("focalLength", focalLength);
   const correspondences::Counts counts = correspondences::readCounts(adapter);
   Sample sample;
   if (problem.rays() > 0) {
@@ -58,7 +63,7 @@ FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, co
     checkIndices("indices", "", indices, problem.points(), counts.points);
     correspondences::readSamplePoints(adapter, indices.data(), problem.points(), sample.points.data());
   }
-  return solve(problem, sample, indices);
+  return solve(problem, sample, indices, focalLength);
 }
 
 static std::vector<int> firstIndices(int count) {
@@ -67,10 +72,11 @@ static std::vector<int> firstIndices(int count) {
   return indices;
 }
 
-FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter) {
-  if (problem.rays() == 0) return solve(problem, adapter, firstIndices(problem.points()));
-  if (problem.points() == 0) return solve(problem, adapter, firstIndices(problem.rays()));
-  return solve(problem, adapter, std::vector<std::vector<int>>{firstIndices(problem.rays()), firstIndices(problem.points())});
+FocalPoses solve(const SolverRows& problem, const HybridAdapterBase& adapter, double focalLength) {
+  if (problem.rays() == 0) return solve(problem, adapter, firstIndices(problem.points()), focalLength);
+  if (problem.points() == 0) return solve(problem, adapter, firstIndices(problem.rays()), focalLength);
+  return solve(problem, adapter, std::vector<std::vector<int>>{firstIndices(problem.rays()), firstIndices(problem.points())},
+               focalLength);
 }
 
 }  // namespace hybrid_pose

@@ -57,6 +57,7 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       lens_(makeLens(data_.arrays, options)),
       estimated_{true, lens_.isUnknown},
       choice_(makeStrategies(options.solvers, data_.sampler)),
+      guess_(FocalLengthGuess::around(data_.arrays.imageSize(), options.minFocalLength, options.maxFocalLength)),
       scorer_(data_.arrays, thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, data_.arrays),
               options.scoring),
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
@@ -64,7 +65,8 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       significance_(scorer_, chance_, data_.sampler, estimated_.parameters(), options.seed),
       optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated_, lens_),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
-      workerStates_(workers_.size()) {
+      workerStates_(workers_.size()),
+      ofThreePointsAtFirst_(findable()) {
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
 }
 
@@ -145,22 +147,39 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   undistortAll(distortion, points, size.points);
   if (isDegenerate(rays, size.rays, points, size.points)) return;
 
-  const int found = strategy.solver.solve(rays, points, worker.solutions.data());
+  const double focalLength = strategy.solver.intrinsics.focalLength ? 1 : guess_.draw(random);
+  const int found = solvers::solve(strategy.solver, rays, points, focalLength, worker.solutions.data());
+  const OwnCorrespondences own{{sample.rays, sample.points}, {size.rays, size.points}};
   for (int k = 0; k < found; ++k) {
     QueryPose solution = worker.solutions[static_cast<std::size_t>(k)];
     solution.distortion = distortion;
-    considerSolution(solution, *strategy.solver.id, number, worker);
+    considerSolution(solution, strategy, own, number, worker);
   }
 }
 
-void HybridSearch::considerSolution(const QueryPose& pose, Solver solver, int number, WorkerState& worker) const {
+// Before anything is known of the data, a pose from three points must be seen by as large a share of the other points as is needed for
+// a few such samples to be found at all. Most wrong poses are told so without a look at the rays.
+Expectation HybridSearch::findable() const {
+  constexpr double kFindableShare = 0.07, kFew = 3;
+  const double share = kUnoptimizedShare * std::min(std::cbrt(kFew / options_.maxIterations), kFindableShare);
+  return {{0, share}, {0, chance_.pointShare()}};
+}
+
+Evaluation HybridSearch::evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own,
+                                  WorkerState& worker) const {
+  if (bestIsSignificant_) return scorer_.evaluate(pose, expectation_, own);
+  if (strategy.solver.points >= 3 && !scorer_.pointsLeaveHope(pose, ofThreePointsAtFirst_, own)) return {};
+  return scorer_.evaluateAtClearestLevels(pose, chanceShares_, worker.errors);
+}
+
+void HybridSearch::considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
+                                    WorkerState& worker) const {
   if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
   Candidate candidate;
   candidate.number = number;
-  candidate.model.solver = solver;
+  candidate.model.solver = strategy.solver.id;
   candidate.model.pose = pose;
-  candidate.model.evaluation = bestIsSignificant_ ? scorer_.evaluate(pose, expectation_)
-                                                  : scorer_.evaluateAtClearestLevels(pose, chanceShares_, worker.errors);
+  candidate.model.evaluation = evaluate(pose, strategy, own, worker);
   if (!candidate.model.evaluation.complete) return;
   candidate.logChance = significance_.logChance(candidate.model.evaluation);
   if (!worker.best || candidate.isLessLikelyChance(*worker.best)) worker.best = candidate;
@@ -243,9 +262,10 @@ void HybridSearch::learnFrom(const Model& model) {
   choice_.setAllInlierProbabilities(probabilities);
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
-  expectation_.goodShare = {share(inliers.rays, data_.sampler.numberRays()), share(inliers.points, data_.sampler.numberPoints())};
+  const PerKind<double> good{share(inliers.rays, data_.sampler.numberRays()),
+                             share(inliers.points, data_.sampler.numberPoints())};
   const PerKind<double> scale = scorer_.scale();
-  expectation_.chanceShare = {chance_.rayShare(scale.rays), chance_.pointShare(scale.points)};
+  expectation_ = Expectation(good, {chance_.rayShare(scale.rays), chance_.pointShare(scale.points)});
 }
 
 InlierCounts HybridSearch::inlierCounts(const QueryPose& pose) const {

@@ -9,6 +9,7 @@
 
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/ChanceModel.hpp"
+#include "robust/FocalLengthGuess.hpp"
 #include "robust/Lens.hpp"
 #include "robust/LocalOptimizer.hpp"
 #include "robust/PoseScorer.hpp"
@@ -77,7 +78,10 @@ class HybridSearch {
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
-  void considerSolution(const QueryPose& pose, Solver solver, int number, WorkerState& worker) const;
+  void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
+                        WorkerState& worker) const;
+  Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;
+  Expectation findable() const;
   void consider(const Model& candidate);
   void compare(const Model& optimized);
   void setThresholds(const Model& model);
@@ -101,6 +105,7 @@ class HybridSearch {
   Lens lens_;
   Intrinsics estimated_;
   SolverChoice choice_;
+  FocalLengthGuess guess_;
   PoseScorer scorer_;
   ChanceModel chance_;
   Shares chanceShares_;  // at all levels
@@ -112,7 +117,8 @@ class HybridSearch {
   Model best_;
   std::optional<Candidate> bestCandidate_;
   bool bestIsSignificant_ = false;
-  Expectation expectation_;
+  Expectation expectation_;           // once a pose is significant
+  Expectation ofThreePointsAtFirst_;  // of a pose from three points at least, before
   int iterations_ = 0, localOptimizations_ = 0;
   sac::StopReason stopReason_ = sac::StopReason::NotStarted;
 };

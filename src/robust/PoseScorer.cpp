@@ -11,36 +11,51 @@ namespace {
 
 constexpr std::size_t kChunk = 64;
 
-// The log of the likelihood ratio of two shares of inliers, per inlier and per outlier.
-struct LogRatio {
-  LogRatio(double good, double chance) {
-    if (!(good > chance)) return;
-    perInlier = std::log(good / chance);
-    perOutlier = std::log((1 - good) / (1 - chance));
-  }
-  double of(int inliers, std::size_t count) const {
-    return inliers * perInlier + (static_cast<double>(count) - inliers) * perOutlier;
-  }
-
-  double perInlier = 0, perOutlier = 0;
-};
-
-// Wald's sequential probability ratio test of the inlier share of each kind.
+// Wald's sequential probability ratio test of the inlier share of each kind, and the bound of the score.
 class SequentialTest {
  public:
-  explicit SequentialTest(const Expectation& expectation)
-      : rays_(expectation.goodShare.rays, expectation.chanceShare.rays),
-        points_(expectation.goodShare.points, expectation.chanceShare.points) {}
-  void add(bool isRays, int inliers, std::size_t count) { ratio_ += (isRays ? rays_ : points_).of(inliers, count); }
-  bool isHopeless() const { return ratio_ < kReject; }
+  SequentialTest(const Expectation& expectation, const OwnCorrespondences& own, std::size_t all)
+      : expected_(expectation), own_(own), left_(all) {}
+
+  bool raysTellMore() const { return expected_.rays.perOutlier < expected_.points.perOutlier; }
+
+  void add(bool isRays, std::size_t begin, std::size_t end, int inliers) {
+    const int own = isRays ? countIn(own_.indices.rays, own_.count.rays, begin, end)
+                           : countIn(own_.indices.points, own_.count.points, begin, end);
+    left_ -= end - begin;
+    ratio_ += (isRays ? expected_.rays : expected_.points).of(std::max(inliers - own, 0), static_cast<int>(end - begin) - own);
+  }
+  bool isHopeless(double score) const { return ratio_ < kReject || score + static_cast<double>(left_) <= expected_.score; }
 
  private:
   static constexpr double kReject = -4.605170185988091;  // log(kFalseRejection)
-  LogRatio rays_, points_;
+
+  static int countIn(const int* indices, int count, std::size_t begin, std::size_t end) {
+    return static_cast<int>(std::count_if(indices, indices + count, [=](int index) {
+      return static_cast<std::size_t>(index) >= begin && static_cast<std::size_t>(index) < end;
+    }));
+  }
+
+  const Expectation& expected_;
+  const OwnCorrespondences& own_;
+  std::size_t left_;
   double ratio_ = 0;  // of good : chance
 };
 
+// Everything counts.
+class NoTest {
+ public:
+  static void add(bool /*isRays*/, std::size_t /*begin*/, std::size_t /*end*/, int /*inliers*/) {}
+  static bool isHopeless(double /*score*/) { return false; }
+};
+
 }  // namespace
+
+LogRatio::LogRatio(double good, double chance) {
+  if (!(good > chance)) return;
+  perInlier = std::log(good / chance);
+  perOutlier = std::log((1 - good) / (1 - chance));
+}
 
 PoseScorer::PoseScorer(const CorrespondenceArrays& arrays, const PerKind<double>& bounds, sac::Scoring scoring)
     : arrays_(arrays),
@@ -48,52 +63,59 @@ PoseScorer::PoseScorer(const CorrespondenceArrays& arrays, const PerKind<double>
       rays_(arrays.rayArrays()),
       bounds_(bounds),
       thresholds_(bounds),
-      scoring_(scoring) {
-  makeChunks();
+      scoring_(scoring),
+      chunks_{makeChunks(true, rays_.size), makeChunks(false, points_.size)} {}
+
+std::vector<PoseScorer::Chunk> PoseScorer::makeChunks(bool isRays, std::size_t size) {
+  std::vector<Chunk> result;
+  for (std::size_t begin = 0; begin < size; begin += kChunk) result.push_back({isRays, begin, std::min(begin + kChunk, size)});
+  return result;
 }
 
-// Chunks of the two kinds by turns.
-void PoseScorer::makeChunks() {
-  for (std::size_t begin = 0; begin < std::max(points_.size, rays_.size); begin += kChunk) {
-    if (begin < points_.size) chunks_.push_back({false, begin, std::min(begin + kChunk, points_.size)});
-    if (begin < rays_.size) chunks_.push_back({true, begin, std::min(begin + kChunk, rays_.size)});
+template <class Test>
+bool PoseScorer::addAll(const std::vector<Chunk>& chunks, double threshold, const PlainPose& pose, Test& test,
+                        Evaluation& evaluation) const {
+  const Kernels& kernels = kernelsFor(pose);
+  for (const Chunk& chunk : chunks) {
+    const Score part = chunk.isRays ? kernels.scoreRays(rays_, pose, threshold * threshold, chunk.begin, chunk.end)
+                                    : kernels.scorePoints(points_, pose, threshold * threshold, chunk.begin, chunk.end);
+    evaluation.score += scoring_ == sac::Scoring::Msac ? part.msac : part.inliers;
+    (chunk.isRays ? evaluation.rays : evaluation.points) += part.inliers;
+    test.add(chunk.isRays, chunk.begin, chunk.end, part.inliers);
+    if (test.isHopeless(evaluation.score)) return false;
   }
-}
-
-int PoseScorer::add(const Chunk& chunk, const Kernels& kernels, const PlainPose& pose, Evaluation& evaluation) const {
-  const double threshold = chunk.isRays ? thresholds_.rays : thresholds_.points;
-  const Score part = chunk.isRays ? kernels.scoreRays(rays_, pose, threshold * threshold, chunk.begin, chunk.end)
-                                  : kernels.scorePoints(points_, pose, threshold * threshold, chunk.begin, chunk.end);
-  evaluation.score += scoring_ == sac::Scoring::Msac ? part.msac : part.inliers;
-  (chunk.isRays ? evaluation.rays : evaluation.points) += part.inliers;
-  return part.inliers;
+  return true;
 }
 
 Evaluation PoseScorer::evaluate(const QueryPose& pose) const {
   const PlainPose plain = toPlain(pose);
-  const Kernels& kernels = kernelsFor(plain);
   Evaluation result;
-  for (const Chunk& chunk : chunks_) add(chunk, kernels, plain, result);
+  NoTest test;
+  addAll(chunks_.points, thresholds_.points, plain, test, result);
+  addAll(chunks_.rays, thresholds_.rays, plain, test, result);
   result.complete = true;
   result.scale = scale();
   return result;
 }
 
-Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expectation) const {
+Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own) const {
   const PlainPose plain = toPlain(pose);
-  const Kernels& kernels = kernelsFor(plain);
-  SequentialTest test(expectation);
+  SequentialTest test(expectation, own, points_.size + rays_.size);
   Evaluation result;
+  const auto add = [&](bool isRays) {
+    return isRays ? addAll(chunks_.rays, thresholds_.rays, plain, test, result)
+                  : addAll(chunks_.points, thresholds_.points, plain, test, result);
+  };
+  const bool raysFirst = test.raysTellMore();
+  result.complete = add(raysFirst) && add(!raysFirst);
   result.scale = scale();
-  std::size_t left = points_.size + rays_.size;
-  for (const Chunk& chunk : chunks_) {
-    const std::size_t count = chunk.end - chunk.begin;
-    test.add(chunk.isRays, add(chunk, kernels, plain, result), count);
-    left -= count;
-    if (result.score + static_cast<double>(left) <= expectation.score || test.isHopeless()) return result;
-  }
-  result.complete = true;
   return result;
+}
+
+bool PoseScorer::pointsLeaveHope(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own) const {
+  SequentialTest test(expectation, own, points_.size + rays_.size);
+  Evaluation unused;
+  return addAll(chunks_.points, bounds_.points, toPlain(pose), test, unused);
 }
 
 void PoseScorer::computeErrors(const QueryPose& pose, PerKind<std::vector<double>>& errors) const {

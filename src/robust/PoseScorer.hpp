@@ -22,11 +22,31 @@ struct Evaluation {
   PerKind<double> scale{1, 1};  // of the thresholds over their bounds
 };
 
+// The log of the likelihood ratio of two shares of inliers, per inlier and per outlier.
+struct LogRatio {
+  LogRatio() = default;
+  // Zero, which tests nothing, unless the good share is larger.
+  LogRatio(double good, double chance);
+  double of(int inliers, int count) const { return inliers * perInlier + (count - inliers) * perOutlier; }
+
+  double perInlier = 0, perOutlier = 0;
+};
+
 // When to give up on a pose. It must be able to exceed `score`, and must not look like one whose inliers are chance: Wald's
 // sequential test between the inlier shares of a pose worth keeping and of a wrong one.
 struct Expectation {
+  Expectation() = default;
+  Expectation(const PerKind<double>& goodShare, const PerKind<double>& chanceShare)
+      : rays(goodShare.rays, chanceShare.rays), points(goodShare.points, chanceShare.points) {}
+
   double score = 0;
-  PerKind<double> goodShare, chanceShare;  // no test of a kind whose good share is not larger
+  LogRatio rays, points;
+};
+
+// The correspondences from which a pose was made: they are inliers whether it is right or wrong, and so are not evidence.
+struct OwnCorrespondences {
+  PerKind<const int*> indices;
+  PerKind<int> count;
 };
 
 // Probability that the sequential test gives up a pose that has the good shares.
@@ -39,8 +59,11 @@ class PoseScorer {
 
   // Over all correspondences.
   Evaluation evaluate(const QueryPose& pose) const;
-  // The same, given up early where there is no hope.
-  Evaluation evaluate(const QueryPose& pose, const Expectation& expectation) const;
+  // The same, given up early where there is no hope. Of the two kinds that one comes first of which a wrong pose is sooner seen to
+  // be one.
+  Evaluation evaluate(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own = {}) const;
+  // The same test for the points alone, with the bound of their threshold: whether the pose may be a good one.
+  bool pointsLeaveHope(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own) const;
   // Over all correspondences, with the thresholds at which the inliers exceed most clearly what chance gives: bounds / 2^k of each
   // kind. `chance`: shares of a wrong pose's inliers; `errors`: room for those of both kinds.
   Evaluation evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance, PerKind<std::vector<double>>& errors) const;
@@ -63,9 +86,11 @@ class PoseScorer {
     bool isRays;
     std::size_t begin, end;
   };
-  void makeChunks();
-  // Adds the chunk's correspondences to the evaluation; returns its inliers.
-  int add(const Chunk& chunk, const Kernels& kernels, const PlainPose& pose, Evaluation& evaluation) const;
+  static std::vector<Chunk> makeChunks(bool isRays, std::size_t size);
+  // Adds the correspondences of chunks to the evaluation. False if the rest need not be looked at.
+  template <class Test>
+  bool addAll(const std::vector<Chunk>& chunks, double threshold, const PlainPose& pose, Test& test,
+              Evaluation& evaluation) const;
   double scoreOf(const std::vector<double>& squaredErrors, double threshold, int inliers) const;
   void computeErrors(const QueryPose& pose, PerKind<std::vector<double>>& errors) const;
 
@@ -74,7 +99,7 @@ class PoseScorer {
   RayArrays rays_;
   PerKind<double> bounds_, thresholds_;
   sac::Scoring scoring_;
-  std::vector<Chunk> chunks_;
+  PerKind<std::vector<Chunk>> chunks_;
 };
 
 }  // namespace robust

@@ -20,13 +20,21 @@ static bool canDraw(const Sampler& sampler, const Strategy& strategy) {
   return sampler.canDraw(strategy.size()) && (strategy.solver.draw != RayDraw::Spread || sampler.numberCameras() > 1);
 }
 
+// Where a problem can be drawn in its easy way, the way behind that in the table, which takes much longer, gets a part of the weight.
+static void addStrategies(const sac::SolverPrior& entry, const Sampler& sampler, std::vector<Strategy>& result) {
+  constexpr double kOfTheHarderWay = 0.2;
+  double prior = entry.prior;
+  for (const solvers::MinimalSolver& solver : solvers::rowsOf(entry.solver)) {
+    const Strategy strategy{solver, prior};
+    if (!canDraw(sampler, strategy)) continue;
+    result.push_back(strategy);
+    prior = kOfTheHarderWay * entry.prior;
+  }
+}
+
 std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler) {
   std::vector<Strategy> result;
-  for (const sac::SolverPrior& entry : priors)
-    for (const solvers::MinimalSolver& solver : solvers::rowsOf(entry.solver)) {
-      const Strategy strategy{solver, entry.prior};
-      if (canDraw(sampler, strategy)) result.push_back(strategy);
-    }
+  for (const sac::SolverPrior& entry : priors) addStrategies(entry, sampler, result);
   return result;
 }
 

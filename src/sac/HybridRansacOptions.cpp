@@ -17,8 +17,7 @@ std::vector<SolverPrior> defaultSolvers() {
   std::vector<SolverPrior> result;
   for (const solvers::SolverRows& problem : solvers::minimalProblems()) {
     const solvers::MinimalSolver& solver = *problem.begin();
-    const bool estimatesTheFocalLength = solver.intrinsics.focalLength && !solver.intrinsics.radial;
-    if (solver.id && solver.prior > 0 && estimatesTheFocalLength) result.push_back({*solver.id, solver.prior});
+    if (solver.id && solver.prior > 0 && !solver.intrinsics.radial) result.push_back({*solver.id, solver.prior});
   }
   return result;
 }

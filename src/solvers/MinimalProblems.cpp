@@ -15,6 +15,25 @@ static int mostOfOneCamera(const RayMatch* rays, int count) {
   return most;
 }
 
+// Image coordinates in units of the focal length.
+template <class Match>
+static Match ofFocalLengthOne(Match match, double focalLength) {
+  match.u /= focalLength, match.v /= focalLength;
+  return match;
+}
+
+int solve(const MinimalSolver& solver, const RayMatch* rays, const PointMatch* points, double focalLength, FocalPose* solutions) {
+  if (solver.intrinsics.focalLength) return solver.solve(rays, points, solutions);
+  if (!(focalLength > 0)) return 0;
+  RayMatch scaledRays[kMaxSampleSize];
+  PointMatch scaledPoints[kMaxSampleSize];
+  for (int i = 0; i < solver.rays; ++i) scaledRays[i] = ofFocalLengthOne(rays[i], focalLength);
+  for (int i = 0; i < solver.points; ++i) scaledPoints[i] = ofFocalLengthOne(points[i], focalLength);
+  const int count = solver.solve(scaledRays, scaledPoints, solutions);
+  for (int i = 0; i < count; ++i) solutions[i].focalLength = focalLength;
+  return count;
+}
+
 bool canGive(const MinimalSolver& solver, const RayMatch* rays) {
   if (solver.draw == RayDraw::OneCamera) return mostOfOneCamera(rays, solver.rays) == solver.rays;
   if (solver.draw == RayDraw::AllButOne) return mostOfOneCamera(rays, solver.rays) == solver.rays - 1;

@@ -45,14 +45,18 @@ namespace h70f {
 int solve(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 }  // namespace h70f
 
-constexpr correspondences::Intrinsics kUnknownFocalLength = {true, false};
+namespace known_focal {
+int p3p(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+}  // namespace known_focal
+
+constexpr correspondences::Intrinsics kUnknownFocalLength = {true, false}, kKnownFocalLength = {false, false};
 
 // A row per way to draw and solve. The rows of one problem, which have one name, stand together; of several the first is taken
 // whose draw can give the sample at hand.
 // clang-format off
 inline constexpr MinimalSolver kMinimalSolvers[] = {
     // id, name, rays, points, draw, most solutions, cost, prior, exact coordinates, follows paths, intrinsics, function
-    {Solver::P4Pf,  "p4pf",           0, 4, RayDraw::Uniform,    6, 1.4, 1,   6, false, kUnknownFocalLength, &three_points::p4pf},
+    {Solver::P4Pf,  "p4pf",           0, 4, RayDraw::Uniform,    6, 1.4, 0.1, 6, false, kUnknownFocalLength, &three_points::p4pf},
     {Solver::P35Pf, "p35pf",          0, 4, RayDraw::Uniform,   10, 2.0, 0.1, 7, false, kUnknownFocalLength, &three_points::p35pf},
     {Solver::H13f,  "h13f",           1, 3, RayDraw::Uniform,   12, 2.7, 1,   6, false, kUnknownFocalLength, &three_points::h13f},
     {Solver::H32f,  "h32f",           3, 2, RayDraw::Uniform,   26, 8,   1,   4, false, kUnknownFocalLength, &h32f::solve},
@@ -61,6 +65,7 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   0,   0, false, kUnknownFocalLength, &h70f::solve},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 0,   0, true,  kUnknownFocalLength, &h70f::solve},
+    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 3,  6, false, kKnownFocalLength,   &known_focal::p3p},
 };
 // clang-format on
 
@@ -73,6 +78,10 @@ constexpr int largest(int MinimalSolver::*column) {
 constexpr int kMaxSolutions = largest(&MinimalSolver::maxSolutions);
 // Correspondences of one kind in a sample.
 constexpr int kMaxSampleSize = std::max(largest(&MinimalSolver::rays), largest(&MinimalSolver::points));
+
+// The solutions of a sample of a camera with this focal length. Solvers that estimate it do not use it; the others find nothing for
+// one that is not positive.
+int solve(const MinimalSolver& solver, const RayMatch* rays, const PointMatch* points, double focalLength, FocalPose* solutions);
 
 // Whether this way to draw can give these rays of a sample.
 bool canGive(const MinimalSolver& solver, const RayMatch* rays);

@@ -17,6 +17,8 @@ using correspondences::RayMatch;
 // this contract:
 //  * the input is finite; its image coordinates and lengths may have any unit and scale, at least from 1e-150 to 1e150
 //    (the solver normalizes inside);
+//  * a solver that does not estimate the focal length takes image coordinates in units of it: (u, v, 1) is the direction in which
+//    the query sees an image point, and the poses have the focal length 1;
 //  * every returned pose satisfies the equations, has f > 0, det rotation = +1, positive depths of points and rays;
 //  * no solution is returned twice; degenerate input gives 0 solutions; nothing is NaN;
 //  * no allocation, no global state, bounded time.

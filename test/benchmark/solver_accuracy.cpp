@@ -32,8 +32,8 @@ using namespace hybridgv::test;
 
 struct Row {
   std::string name;
-  solvers::SolveFunction solve;
-  std::size_t exactPoints;  // points whose reprojection error must vanish
+  const solvers::MinimalSolver* solver;  // null where completeness is told
+  std::size_t exactPoints;               // points whose reprojection error must vanish
   std::function<MinimalProblem(Random&)> makeProblem;
   // Homotopies: in the place of `solve`, the function that counts the ends of its paths.
   int (*solveAndCount)(const MinimalProblem& problem, FocalPose* poses, bool* complete) = nullptr;
@@ -87,14 +87,14 @@ void addRows(const SolverConfiguration& configuration, bool awkward, std::vector
   const std::vector<int> pattern = configuration.raysPerCamera;
   const int points = solver.points;
   if (!awkward) {
-    rows->push_back({configuration.name, solver.solve, exactPoints,
-                     [=](Random& random) { return makeMinimalProblem(random, pattern, points); }});
+    rows->push_back(
+        {configuration.name, &solver, exactPoints, [=](Random& random) { return makeMinimalProblem(random, pattern, points); }});
     return;
   }
   if (points < 3) return;
   for (const AwkwardCase& c : awkwardCases())
     if (!c.needsRay || !pattern.empty())
-      rows->push_back({configuration.name + ", " + c.name, solver.solve, exactPoints,
+      rows->push_back({configuration.name + ", " + c.name, &solver, exactPoints,
                        [=](Random& random) { return makeAwkwardProblem(random, c, pattern, points); }});
 }
 
@@ -103,7 +103,7 @@ void addOneCentreRows(std::vector<Row>* rows) {
     for (const OneCentreAwkwardCase& c : oneCentreAwkwardCases()) {
       const bool six = kind == OneCentreKind::SixRays;
       rows->push_back({std::string(six ? "sixpt_onefocal, " : "h51f_5, ") + c.name,
-                       six ? &solvers::one_centre::sixptOnefocal : &solvers::one_centre::h51f, six ? 0u : 1u,
+                       solvers::rowsOf(six ? "sixpt_onefocal" : "h51f").begin(), six ? 0u : 1u,
                        [=](Random& random) { return makeOneCentreProblem(random, kind, c); }});
     }
 }
@@ -133,7 +133,8 @@ void measure(const Row& row, int count, std::uint64_t seed) {
     const Clock::time_point start = Clock::now();
     bool complete = false;
     const int found = row.solveAndCount ? row.solveAndCount(problem, poses.data(), &complete)
-                                        : row.solve(problem.rays.data(), problem.points.data(), poses.data());
+                                        : solvers::solve(*row.solver, problem.rays.data(), problem.points.data(),
+                                                         problem.truth.focalLength, poses.data());
     seconds += std::chrono::duration<double>(Clock::now() - start).count();
     poses.resize(static_cast<std::size_t>(found));
     solutions += poses.size();

@@ -32,8 +32,8 @@ constexpr double kRecovered = 1e-6;  // rotation [rad] and relative focal length
 
 using test::SolverConfiguration;
 
-FocalPoses solve(const SolverConfiguration& row, const NoncentralHybridAdapter& adapter) {
-  return hybrid_pose::solve(solvers::rowsOf(row.solver->name), adapter);
+FocalPoses solve(const SolverConfiguration& row, const NoncentralHybridAdapter& adapter, double focalLength) {
+  return hybrid_pose::solve(solvers::rowsOf(row.solver->name), adapter, focalLength);
 }
 
 struct Statistics {
@@ -56,6 +56,7 @@ struct Statistics {
 // The problems of a row and what is found; made when the row is first run.
 struct SolverData {
   std::vector<NoncentralHybridAdapter> adapters;
+  std::vector<double> focalLengths;
   Statistics statistics;
 
   explicit SolverData(const SolverConfiguration& row) {
@@ -63,7 +64,8 @@ struct SolverData {
       test::Random random(kSeed, i);
       const test::MinimalProblem problem = test::makeMinimalProblem(random, row.raysPerCamera, row.solver->points);
       adapters.push_back(test::makeAdapter(problem));
-      const FocalPoses solutions = solve(row, adapters.back());
+      focalLengths.push_back(problem.truth.focalLength);
+      const FocalPoses solutions = solve(row, adapters.back(), focalLengths.back());
       statistics.add(solutions.size(), test::distanceToNearest(solutions, problem.truth));
     }
   }
@@ -74,7 +76,7 @@ void registerSolver(const SolverConfiguration& row) {
     if (!data) data = std::make_shared<SolverData>(row);
     std::size_t i = 0;
     for (auto _ : state) {
-      benchmark::DoNotOptimize(solve(row, data->adapters[i]));
+      benchmark::DoNotOptimize(solve(row, data->adapters[i], data->focalLengths[i]));
       i = (i + 1) % kProblems;
     }
     data->statistics.writeTo(state);

@@ -17,6 +17,7 @@ namespace fuzz {
 
 constexpr std::size_t kRayDoubles = 8, kPointDoubles = 5;
 constexpr int kCameras = 6;
+constexpr double kFocalLength = 1000;  // of the query, for solvers that need it
 
 struct Sample {
   std::vector<solvers::RayMatch> rays;

@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::decodeSample(data, size, static_cast<std::size_t>(chosen->rays()), static_cast<std::size_t>(chosen->points()));
   FocalPoses poses;
   try {
-    poses = hybrid_pose::solve(*chosen, fuzz::RawAdapter(sample));
+    poses = hybrid_pose::solve(*chosen, fuzz::RawAdapter(sample), fuzz::kFocalLength);
   } catch (const std::invalid_argument&) {
     // Also for a ray without direction, and for rays of several cameras where one is demanded.
     return 0;

@@ -3,6 +3,7 @@
 
 #include "Misuse.hpp"
 #include "hybrid_pose/solveSample.hpp"
+#include "hybridgv/absolute_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 
@@ -108,6 +109,15 @@ TEST(Misuse, SolversRefuseAdaptersWithTooFewCorrespondences) {
   }
 }
 
+TEST(Misuse, SolversRefuseFocalLengthsThatAreNotPositiveAndFinite) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  for (const double value : {kNaN, kInfinite, -kInfinite, 0.0, -1.0}) {
+    const std::string name = std::to_string(value);
+    expectRefused("p3p " + name, "focalLength", [&] { absolute_pose::p3p(adapter, value); });
+    expectRefused("p3p " + name, "focalLength", [&] { absolute_pose::p3p(adapter, value, {0, 1, 2}); });
+  }
+}
+
 TEST(Misuse, SolversRefuseNumbersThatAreNotFinite) {
   for (const PublicSolver& solver : publicSolvers()) {
     std::vector<WrongField> fields;
@@ -205,7 +215,7 @@ TEST(Misuse, ResidualsOfNumbersThatAreNotFiniteAreInfinite) {
 }
 
 TEST(Misuse, UnknownSolverNamesAreRefused) {
-  for (const char* name : {"", "H13F", "h13f ", "p3p", "sixpt_onefocal"})
+  for (const char* name : {"", "H13F", "h13f ", "p5p", "sixpt_onefocal"})
     expectRefused(name, "solver", [&] { solverFromString(name); });
   for (const Solver solver : noSolvers()) {
     const std::string value = std::to_string(static_cast<int>(solver));

@@ -95,8 +95,14 @@ TEST(Misuse, ProblemsRefuseWrongThresholdsSolversAndAdapters) {
     const std::string value = std::to_string(static_cast<int>(solver));
     expectAllRefuse(value, "solver: no such value: " + value, adapter, solver, 1, 1);
   }
+  for (const double value : {kNaN, kInfinite, 0.0, -1.0})
+    expectRefused(std::to_string(value), "knownFocalLengthPx", [&] { HybridProblemCore(adapter, Solver::P3P, 1, 1, value); });
+  expectRefused("missing", "knownFocalLengthPx: p3p needs it", [&] { HybridProblemCore(adapter, Solver::P3P, 1, 1); });
+  expectRefused("needless", "knownFocalLengthPx: h13f estimates",
+                [&] { HybridProblemCore(adapter, Solver::H13f, 1, 1, 1000.0); });
   const NoncentralHybridAdapter empty({}, {}, {}, {}, {}, {}, {});
-  for (const Solver solver : allSolvers()) expectAllRefuse(toString(solver), "adapter", empty, solver, 1, 1);
+  for (const Solver solver : allSolvers())
+    expectRefused(toString(solver), "adapter", [&] { HybridProblemCore(empty, solver, 1, 1, focalLengthFor(solver, 1000)); });
   std::vector<WrongField> fields = wrongRayFields();
   const std::vector<WrongField> ofPoints = wrongPointFields();
   fields.insert(fields.end(), ofPoints.begin(), ofPoints.end());

@@ -74,14 +74,30 @@ TEST(PoseScorer, SequentialTestKeepsGoodPosesAndGivesUpChanceOnesEarly) {
   for (int i = 0; i < count; ++i) {
     const Data data(random, 300, 300, 0.6);
     const PoseScorer scorer(data.arrays, {6, 12}, sac::Scoring::Msac);
-    Expectation expectation;
-    expectation.goodShare = {0.3, 0.3};
-    expectation.chanceShare = {0.03, 0.03};
+    const Expectation expectation({0.3, 0.3}, {0.03, 0.03});
     goodKept += scorer.evaluate(data.truth(), expectation).complete;
     badKept += scorer.evaluate(test::perturbed(random, data.truth(), 2, 2, 1), expectation).complete;
   }
   EXPECT_GE(goodKept, count * (1 - 2 * kFalseRejection));
   EXPECT_LE(badKept, 0.05 * count);
+}
+
+// A wrong pose through its own sample has these inliers, which say nothing.
+TEST(PoseScorer, OwnCorrespondencesAreNoEvidence) {
+  test::Random random(test::testSeed(), 63);
+  const Data data(random, 0, 300, 0);
+  const PoseScorer scorer(data.arrays, {6, 12}, sac::Scoring::Msac);
+  const Expectation expectation({0, 0.6}, {0, 0.01});
+  FocalPose wrong = data.truth();
+  wrong.rotation.rightCols<2>() *= -1;  // looks away: no inlier at all
+  EXPECT_FALSE(scorer.evaluate(wrong, expectation).complete);
+  EXPECT_FALSE(scorer.pointsLeaveHope(wrong, expectation, {}));
+  std::vector<int> all(300);
+  std::iota(all.begin(), all.end(), 0);
+  const OwnCorrespondences own{{nullptr, all.data()}, {0, 300}};
+  EXPECT_TRUE(scorer.evaluate(wrong, expectation, own).complete);
+  EXPECT_TRUE(scorer.pointsLeaveHope(wrong, expectation, own));
+  EXPECT_TRUE(scorer.pointsLeaveHope(data.truth(), expectation, {}));
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 
 #include "FocalPoseNear.hpp"
+#include "SolverConfigurations.hpp"
 #include "damage.hpp"
 #include "expectRefused.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
@@ -29,10 +31,10 @@ class SacProblem : public testing::Test {
   SacProblem() : data_(test::makeMinimalProblem(random_, {8, 8, 8}, 20)), adapter_(test::makeAdapter(data_)) {}
 
   HybridPoseSacProblem flat(Solver solver, std::uint64_t seed = 0) const {
-    return {adapter_, solver, kReprojectionPx, kEpipolarPx, seed};
+    return {adapter_, solver, kReprojectionPx, kEpipolarPx, seed, test::focalLengthFor(solver, data_.truth.focalLength)};
   }
   MultiHybridPoseSacProblem multi(Solver solver, std::uint64_t seed = 0) const {
-    return {adapter_, solver, kReprojectionPx, kEpipolarPx, seed};
+    return {adapter_, solver, kReprojectionPx, kEpipolarPx, seed, test::focalLengthFor(solver, data_.truth.focalLength)};
   }
 
   test::Random random_{test::testSeed()};
@@ -293,12 +295,29 @@ TEST_F(SacProblem, DegenerateSamplesAreDrawnAgain) {
   }
 }
 
+TEST_F(SacProblem, KnownFocalLengthIsKept) {
+  test::addNoise(random_, 1, data_);
+  adapter_ = test::makeAdapter(data_);
+  HybridPoseSacProblem problem = flat(Solver::P3P);
+  int unused = 0;
+  std::vector<int> sample, all;
+  problem.getSamples(unused, sample);
+  FocalPose model, refined;
+  ASSERT_TRUE(problem.computeModelCoefficients(sample, model));
+  EXPECT_EQ(model.focalLength, data_.truth.focalLength);
+  for (int i = 0; i < 44; ++i) all.push_back(i);
+  problem.optimizeModelCoefficients(all, model, refined);
+  EXPECT_EQ(refined.focalLength, data_.truth.focalLength);
+  EXPECT_TRUE(test::isFocalPoseNear(refined, data_.truth, 0.01, 0.3));
+}
+
 TEST_F(SacProblem, DegenerateSampleHasNoModel) {
   for (solvers::PointMatch& match : data_.points) match.point = data_.points[0].point;
   const NoncentralHybridAdapter adapter = test::makeAdapter(data_);
   for (const Solver solver : allSolvers()) {
-    HybridPoseSacProblem problem(adapter, solver, kReprojectionPx, kEpipolarPx);
-    if (MultiHybridPoseSacProblem(adapter, solver, kReprojectionPx, kEpipolarPx).getSampleSizes()[1] < 2) continue;
+    const std::optional<double> focalLength = test::focalLengthFor(solver, data_.truth.focalLength);
+    HybridPoseSacProblem problem(adapter, solver, kReprojectionPx, kEpipolarPx, 0, focalLength);
+    if (multi(solver).getSampleSizes()[1] < 2) continue;
     int unused = 0;
     std::vector<int> sample;
     problem.getSamples(unused, sample);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <set>
 #include <stdexcept>
 
@@ -84,28 +85,32 @@ TEST(MinimalProblems, RansacDrawsThoseWithAPriorByDefault) {
   const std::vector<sac::SolverPrior> solvers = sac::HybridRansacOptions().solvers;
   ASSERT_EQ(solvers.size(), allSolvers().size() - 1);  // without h70f
   for (const sac::SolverPrior& entry : solvers)
-    EXPECT_EQ(entry.prior, entry.solver == Solver::P35Pf ? 0.1 : 1) << toString(entry.solver);
+    EXPECT_EQ(entry.prior, rowsOf(entry.solver).begin()->prior) << toString(entry.solver);
 }
 
 // The public functions have the rows of their names.
 TEST(MinimalProblems, PublicFunctionsSolveTheProblemOfTheirName) {
   using Adapter = hybrid_pose::HybridAdapterBase;
+  using Function = FocalPoses (*)(const Adapter&);
+  using AtFocalLength = FocalPoses (*)(const Adapter&, double);
+  const auto estimating = [](Function solve) { return [=](const Adapter& adapter, double) { return solve(adapter); }; };
   const struct {
     const char* name;
-    FocalPoses (*solve)(const Adapter&);
-  } functions[] = {{"p4pf", &absolute_pose::p4pf}, {"p35pf", &absolute_pose::p35pf},
-                   {"h13f", &hybrid_pose::h13f},   {"h32f", &hybrid_pose::h32f},
-                   {"h51f", &hybrid_pose::h51f},   {"sixpt_onefocal", &relative_pose::sixpt_onefocal},
-                   {"h70f", &hybrid_pose::h70f}};
+    std::function<FocalPoses(const Adapter&, double)> solve;
+  } functions[] = {{"p4pf", estimating(&absolute_pose::p4pf)}, {"p35pf", estimating(&absolute_pose::p35pf)},
+                   {"h13f", estimating(&hybrid_pose::h13f)},   {"h32f", estimating(&hybrid_pose::h32f)},
+                   {"h51f", estimating(&hybrid_pose::h51f)},   {"sixpt_onefocal", estimating(&relative_pose::sixpt_onefocal)},
+                   {"h70f", estimating(&hybrid_pose::h70f)},   {"p3p", AtFocalLength(&absolute_pose::p3p)}};
   test::Random random(test::testSeed() + 720);
   for (const auto& function : functions)
     for (const test::SolverConfiguration& configuration : test::configurationsOf(rowsOf(function.name))) {
       const test::MinimalProblem problem =
           test::makeMinimalProblem(random, configuration.raysPerCamera, configuration.solver->points);
       FocalPoses expected(kMaxSolutions);
+      const double f = problem.truth.focalLength;
       expected.resize(
-          static_cast<std::size_t>(configuration.solver->solve(problem.rays.data(), problem.points.data(), expected.data())));
-      const FocalPoses poses = function.solve(test::makeAdapter(problem));
+          static_cast<std::size_t>(solve(*configuration.solver, problem.rays.data(), problem.points.data(), f, expected.data())));
+      const FocalPoses poses = function.solve(test::makeAdapter(problem), f);
       ASSERT_EQ(poses.size(), expected.size()) << configuration.name;
       for (std::size_t i = 0; i < poses.size(); ++i) {
         EXPECT_LT(test::poseDistance(poses[i], expected[i]), 1e-6) << configuration.name;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,12 @@ inline std::vector<SolverConfiguration> solverConfigurations() {
   for (const solvers::SolverRows& problem : solvers::minimalProblems())
     for (const SolverConfiguration& configuration : configurationsOf(problem)) result.push_back(configuration);
   return result;
+}
+
+// The focal length for a call of something that takes it only for solvers that need it.
+inline std::optional<double> focalLengthFor(Solver solver, double focalLength) {
+  if (solvers::rowsOf(solver).begin()->intrinsics.focalLength) return {};
+  return focalLength;
 }
 
 // The first value behind the enumerators, and others that are none.

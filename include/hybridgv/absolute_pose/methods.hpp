@@ -1,5 +1,5 @@
 /// \file
-/// \brief Minimal solvers for 2D-3D correspondences alone, unknown focal length.
+/// \brief Minimal solvers for 2D-3D correspondences alone, with unknown or known focal length.
 #pragma once
 
 #include <vector>
@@ -44,6 +44,26 @@ HYBRIDGV_EXPORT FocalPoses p4pf(const hybrid_pose::HybridAdapterBase& adapter);
 HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices);
 /// P3.5Pf on the adapter's first four 2D-3D correspondences.
 HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter);
+
+/// P3P: pose from three 2D-3D correspondences, the focal length f being known. Each gives
+///
+///     (u_i, v_i) = f (x_i/z_i, y_i/z_i),   (x_i, y_i, z_i) = rotation^T (X_i - position),   z_i > 0.
+///
+/// \param adapter      its 2D-3D correspondences: image points relative to the principal point, undistorted; any unit. Image points
+///                     are homogeneous, so that bearing vectors (x, y, z), z > 0, are image points of a camera with f = 1
+/// \param focalLength  f, in the unit of the image points
+/// \param indices      three different 2D-3D correspondences (the first three entries are used)
+/// \return at most 4 poses (2.1 on average), in no particular order, with f as their focal length. Empty for collinear or coinciding
+///         points, coinciding image points and data without a real solution. Where the query is on the cylinder over the points'
+///         circumcircle, two solutions coincide: they are returned once, with half the digits.
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices, data that are not finite, and a focal length that
+///         is not positive and finite
+///
+/// A pair of lines in a pencil of conics: one root of a cubic and quadratic equations; about 0.02 times OpenGV's gp3p.
+HYBRIDGV_EXPORT FocalPoses p3p(const hybrid_pose::HybridAdapterBase& adapter, double focalLength,
+                               const std::vector<int>& indices);
+/// P3P on the adapter's first three 2D-3D correspondences.
+HYBRIDGV_EXPORT FocalPoses p3p(const hybrid_pose::HybridAdapterBase& adapter, double focalLength);
 
 }  // namespace absolute_pose
 }  // namespace hybridgv

@@ -19,7 +19,8 @@ struct SolverPrior {
   double prior = 1;  ///< its weight relative to the others'; only the ratios matter
 };
 
-/// All solvers for a query image of unknown focal length; P35Pf has a tenth of the others' weight.
+/// All solvers for a query image without distortion; P35Pf and P4Pf have a tenth of the others' weight, because P3P at a guess of the focal
+/// length finds the same poses with a point less.
 HYBRIDGV_EXPORT std::vector<SolverPrior> defaultSolvers();
 
 /// What makes a pose better than another.

@@ -56,17 +56,30 @@ correspondences::Correspondences readAll(const hybridgv::hybrid_pose::HybridAdap
 }  // namespace
 
 struct HybridProblemCore::Data {
-  Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx)
+  Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx,
+       std::optional<double> knownFocalLengthPx)
       : problem(solvers::rowsOf(id)),
         correspondences(readAll(adapter)),
         arrays(correspondences),
         maxReprojectionErrorPx(reprojectionPx),
-        maxEpipolarErrorPx(epipolarPx) {
+        maxEpipolarErrorPx(epipolarPx),
+        focalLength(checkedFocalLength(knownFocalLengthPx)) {
     arrays.fixUnknownFocalLengths();
     checkPositive("maxReprojectionErrorPx", reprojectionPx);
     checkPositive("maxEpipolarErrorPx", epipolarPx);
     checkCount("2D-2D", count2d2d(), problem.rays(), problem.name());
     checkCount("2D-3D", count2d3d(), problem.points(), problem.name());
+  }
+
+  // 1, which no solver uses, where it is estimated.
+  double checkedFocalLength(const std::optional<double>& known) const {
+    const bool isEstimated = problem.begin()->intrinsics.focalLength;
+    if (isEstimated && known)
+      throwInvalid("knownFocalLengthPx",
+                   std::string(problem.name()) + " estimates the focal length, is " + detail::format(*known));
+    if (!isEstimated && !known) throwInvalid("knownFocalLengthPx", std::string(problem.name()) + " needs it");
+    if (known) checkPositive("knownFocalLengthPx", *known);
+    return known.value_or(1);
   }
 
   int count2d2d() const { return static_cast<int>(arrays.rays().size()); }
@@ -164,6 +177,7 @@ struct HybridProblemCore::Data {
   const correspondences::Correspondences correspondences;
   CorrespondenceArrays arrays;
   const double maxReprojectionErrorPx, maxEpipolarErrorPx;
+  const double focalLength;  // for solvers that need it
 };
 
 // The sampler draws places in the list.
@@ -197,8 +211,9 @@ CorrespondencePool::CorrespondencePool(std::shared_ptr<const Data> data) : data_
 const std::vector<int>& CorrespondencePool::indices() const { return data_->indices; }
 
 HybridProblemCore::HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver,
-                                     double maxReprojectionErrorPx, double maxEpipolarErrorPx)
-    : data_(std::make_shared<const Data>(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx)) {}
+                                     double maxReprojectionErrorPx, double maxEpipolarErrorPx,
+                                     std::optional<double> knownFocalLengthPx)
+    : data_(std::make_shared<const Data>(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx)) {}
 
 std::array<int, 2> HybridProblemCore::size() const { return {data_->count2d2d(), data_->count2d3d()}; }
 std::array<int, 2> HybridProblemCore::sampleSize() const { return {data_->problem.rays(), data_->problem.points()}; }
@@ -258,7 +273,7 @@ bool HybridProblemCore::computeModel(const MultiIndices& sample, const Correspon
   const solvers::MinimalSolver* const solver = data_->problem.forSample(correspondences.rays.data());
   if (!solver) return false;
   double best = -1;  // less than any score
-  for (const FocalPose& solution : hybridgv::hybrid_pose::solve(*solver, correspondences)) {
+  for (const FocalPose& solution : hybridgv::hybrid_pose::solve(*solver, correspondences, data_->focalLength)) {
     const double score = data_->score(pool.data_->arrays(data_->arrays), solution, 1).msac;
     if (!(score > best)) continue;
     best = score;
@@ -287,7 +302,9 @@ FocalPose HybridProblemCore::optimize(const MultiIndices& inliers, const FocalPo
   checkMultiIndices("inliers", inliers, {static_cast<int>(inliers[0].size()), static_cast<int>(inliers[1].size())},
                     {data_->correspondences.rays.size(), data_->correspondences.points.size()});
   checkPose("model", model);
-  return hybridgv::hybrid_pose::optimizeNonlinear(data_->correspondences.subset(inliers[0], inliers[1]), model).pose;
+  return hybridgv::hybrid_pose::optimizeNonlinear(data_->correspondences.subset(inliers[0], inliers[1]), model,
+                                                  data_->problem.begin()->intrinsics)
+      .pose;
 }
 
 std::function<int()> randomSequence(std::uint64_t seed) {

@@ -16,7 +16,7 @@ namespace test {
 
 struct SolverCase {
   std::string name;
-  solvers::SolveFunction solve;
+  solvers::MinimalSolver solver;
   std::vector<int> raysPerCamera;
   int points;
   int maxSolutions;
@@ -29,7 +29,7 @@ struct SolverCase {
 
   explicit SolverCase(const SolverConfiguration& configuration)
       : name(configuration.name),
-        solve(configuration.solver->solve),
+        solver(*configuration.solver),
         raysPerCamera(configuration.raysPerCamera),
         points(configuration.solver->points),
         maxSolutions(configuration.solver->maxSolutions),
@@ -43,9 +43,10 @@ struct SolverCase {
   // How many problems a test takes: fewer of solvers that take their time.
   std::uint64_t problems(std::uint64_t usual, std::uint64_t few) const { return cost < 500 ? usual : few; }
 
+  // Solvers that need the focal length get the true one.
   FocalPoses solutions(const MinimalProblem& problem) const {
     FocalPose poses[solvers::kMaxSolutions];
-    const int count = solve(problem.rays.data(), problem.points.data(), poses);
+    const int count = solvers::solve(solver, problem.rays.data(), problem.points.data(), problem.truth.focalLength, poses);
     EXPECT_GE(count, 0);
     EXPECT_LE(count, maxSolutions);
     return {poses, poses + count};

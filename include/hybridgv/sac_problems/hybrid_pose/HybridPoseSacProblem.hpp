@@ -1,5 +1,5 @@
 /// \file
-/// \brief Hybrid pose with unknown focal length as a problem for opengv::sac::Ransac and opengv::sac::Lmeds.
+/// \brief Hybrid pose, with unknown or known focal length, as a problem for opengv::sac::Ransac and opengv::sac::Lmeds.
 #pragma once
 
 // OpenGV's sac headers do not include all they need: <algorithm>, <climits>, <cmath>, <limits> and Eigen must come first.
@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <opengv/sac/SampleConsensusProblem.hpp>
+#include <optional>
 #include <vector>
 
 #include "hybridgv/sac_problems/hybrid_pose/HybridProblemCore.hpp"
@@ -64,13 +65,14 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   /// \param maxReprojectionErrorPx  largest reprojection error of an inlier among the 2D-3D correspondences [px]
   /// \param maxEpipolarErrorPx  largest Sampson error of an inlier among the 2D-2D correspondences [px]
   /// \param seed  of everything random
+  /// \param knownFocalLengthPx  of the query [px], for a solver that needs it (P3P ..), and only for one of these
   ///
   /// \throws std::invalid_argument for fewer correspondences than the solver needs, thresholds that are not positive and finite,
-  ///         correspondences that are not finite.
+  ///         a focal length that is not, is missing or is given to a solver that estimates it, correspondences that are not finite.
   HybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
-                       std::uint64_t seed = 0)
+                       std::uint64_t seed = 0, std::optional<double> knownFocalLengthPx = {})
       : SampleConsensusProblem(false),
-        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx),
+        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx),
         raysFromOneCamera_(core_.drawsRaysFromOneCamera()),
         pool_(core_.makePool({})) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
@@ -115,7 +117,7 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
     return core_.countWithin(model, pool(), threshold);
   }
 
-  /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.
+  /// hybrid_pose::optimize_nonlinear on the inliers, a known focal length being kept; nothing but optimizedModel is written.
   void optimizeModelCoefficients(const std::vector<int>& inliers, const model_t& model, model_t& optimizedModel) override {
     optimizedModel = core_.optimize(core_.split(inliers), model);
   }

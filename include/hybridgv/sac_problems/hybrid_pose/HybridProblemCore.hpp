@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hybridgv/export.hpp"
@@ -41,10 +42,12 @@ class HYBRIDGV_EXPORT HybridProblemCore {
  public:
   /// Copies the adapter's correspondences; it is not needed afterwards.
   ///
+  /// `knownFocalLengthPx`: of the query, for a solver that needs it, and only for one of these.
+  ///
   /// \throws std::invalid_argument for fewer correspondences than the solver needs, thresholds that are not positive and finite,
-  ///         correspondences that are not finite.
+  ///         a focal length that is not, is missing or is given to a solver that estimates it, correspondences that are not finite.
   HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver, double maxReprojectionErrorPx,
-                    double maxEpipolarErrorPx);
+                    double maxEpipolarErrorPx, std::optional<double> knownFocalLengthPx = {});
 
   /// Numbers of 2D-2D and 2D-3D correspondences of the data.
   std::array<int, 2> size() const;
@@ -87,7 +90,7 @@ class HYBRIDGV_EXPORT HybridProblemCore {
   /// How many distances of the pool are below `threshold`, which must not be negative.
   int countWithin(const FocalPose& model, const CorrespondencePool& pool, double threshold) const;
 
-  /// hybrid_pose::optimize_nonlinear on the inliers; std::invalid_argument for a model that is not a pose.
+  /// hybrid_pose::optimize_nonlinear on the inliers, a known focal length being kept; std::invalid_argument for a model that is not a pose.
   FocalPose optimize(const MultiIndices& inliers, const FocalPose& model) const;
 
   /// Stands for an infinite distance: OpenGV's loops add distances up.

@@ -1,5 +1,5 @@
 /// \file
-/// \brief Hybrid pose with unknown focal length as a problem for opengv::sac::MultiRansac.
+/// \brief Hybrid pose, with unknown or known focal length, as a problem for opengv::sac::MultiRansac.
 #pragma once
 
 // OpenGV's sac headers do not include all they need: <algorithm>, <climits>, <cmath>, <limits> and Eigen must come first.
@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <opengv/sac/MultiSampleConsensusProblem.hpp>
+#include <optional>
 #include <vector>
 
 #include "hybridgv/sac_problems/hybrid_pose/HybridProblemCore.hpp"
@@ -36,9 +37,9 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
 
   /// Copies the adapter's correspondences; parameters and errors are those of HybridPoseSacProblem's constructor.
   MultiHybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
-                            std::uint64_t seed = 0)
+                            std::uint64_t seed = 0, std::optional<double> knownFocalLengthPx = {})
       : MultiSampleConsensusProblem(false),
-        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx),
+        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx),
         raysFromOneCamera_(core_.drawsRaysFromOneCamera()),
         pool_(core_.makePool({})) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
@@ -82,7 +83,7 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
     return core_.countWithin(model, pool(), threshold);
   }
 
-  /// hybrid_pose::optimize_nonlinear on the inliers; nothing but optimizedModel is written.
+  /// hybrid_pose::optimize_nonlinear on the inliers, a known focal length being kept; nothing but optimizedModel is written.
   void optimizeModelCoefficients(const std::vector<std::vector<int>>& inliers, const model_t& model,
                                  model_t& optimizedModel) override {
     optimizedModel = core_.optimize(inliers, model);
