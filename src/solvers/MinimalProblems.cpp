@@ -18,7 +18,8 @@ static int mostOfOneCamera(const RayMatch* rays, int count) {
 // Image coordinates in units of the focal length.
 template <class Match>
 static Match ofFocalLengthOne(Match match, double focalLength) {
-  match.u /= focalLength, match.v /= focalLength;
+  match.u /= focalLength;
+  match.v /= focalLength;
   return match;
 }
 

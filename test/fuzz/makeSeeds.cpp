@@ -55,8 +55,14 @@ void write(const std::filesystem::path& file, const std::string& contents) {
 // The image in the unit in which the focal length is the one that the fuzzer gives to solvers that need it.
 void setFocalLength(test::MinimalProblem& problem) {
   const double scale = kFocalLength / problem.truth.focalLength;
-  for (solvers::RayMatch& ray : problem.rays) ray.u *= scale, ray.v *= scale;
-  for (solvers::PointMatch& match : problem.points) match.u *= scale, match.v *= scale;
+  for (solvers::RayMatch& ray : problem.rays) {
+    ray.u *= scale;
+    ray.v *= scale;
+  }
+  for (solvers::PointMatch& match : problem.points) {
+    match.u *= scale;
+    match.v *= scale;
+  }
 }
 
 void writeSamples(const std::filesystem::path& folder, const std::vector<std::vector<int>>& raysPerCamera, int points) {

@@ -87,7 +87,8 @@ TEST(PoseScorer, OwnCorrespondencesAreNoEvidence) {
   test::Random random(test::testSeed(), 63);
   const Data data(random, 0, 300, 0);
   const PoseScorer scorer(data.arrays, {6, 12}, sac::Scoring::Msac);
-  const Expectation expectation({0, 0.6}, {0, 0.01});
+  Expectation expectation({0, 0.6}, {0, 0.01});
+  expectation.score = -1;
   FocalPose wrong = data.truth();
   wrong.rotation.rightCols<2>() *= -1;  // looks away: no inlier at all
   EXPECT_FALSE(scorer.evaluate(wrong, expectation).complete);

@@ -135,8 +135,10 @@ class P3p {
     const double s = matrix(j, k) < 0 ? 1 : -1;
     Vector3d row = matrix.row(j), column = matrix.col(k);
     // [z]x has -z_i at (j, k), z_k at (j, i) and z_j at (i, k).
-    row[k] -= s * z[i], row[i] += s * z[k];
-    column[j] -= s * z[i], column[i] += s * z[j];
+    row[k] -= s * z[i];
+    row[i] += s * z[k];
+    column[j] -= s * z[i];
+    column[i] += s * z[j];
     intersect(row, other);
     intersect(column, other);
   }
@@ -149,8 +151,10 @@ class P3p {
     const int c = negative[0] == negative[1] ? 2 : (negative[0] == negative[2] ? 1 : 0);
     const int a = (c + 1) % 3, b = (c + 2) % 3;
     Vector3d A, B;
-    A[a] = B[b] = std::abs(line[c]), A[b] = B[a] = 0;
-    A[c] = std::abs(line[a]), B[c] = std::abs(line[b]);
+    A[a] = B[b] = std::abs(line[c]);
+    A[b] = B[a] = 0;
+    A[c] = std::abs(line[a]);
+    B[c] = std::abs(line[b]);
     const Matrix3d matrix = D.matrix();
     const Vector3d DB = matrix * B;
     const double alpha = A.dot(matrix * A), beta = A.dot(DB), gamma = B.dot(DB);

@@ -38,12 +38,15 @@ bool TrianglePose::set(const PointMatch* points) {
   Eigen::Vector3d a = points[1].point - points[0].point, b = points[2].point - points[0].point;
   const double extent = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
   if (!(extent > 0) || !std::isfinite(extent)) return false;
-  a /= extent, b /= extent;
+  a /= extent;
+  b /= extent;
   const double sum = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm(), root = std::sqrt(sum);
   unit_ = extent * root;
   fromFirst_[0].setZero();
-  fromFirst_[1] = a / root, fromFirst_[2] = b / root;
-  squaredSides_[0] = a.squaredNorm() / sum, squaredSides_[1] = b.squaredNorm() / sum,
+  fromFirst_[1] = a / root;
+  fromFirst_[2] = b / root;
+  squaredSides_[0] = a.squaredNorm() / sum;
+  squaredSides_[1] = b.squaredNorm() / sum;
   squaredSides_[2] = (b - a).squaredNorm() / sum;
   return std::isfinite(unit_) && makeFrame(a, b, frame_);
 }

@@ -99,7 +99,8 @@ TEST(P3p, TakesBearingVectors) {
     while (points.size() < 3) {
       const Vector3d point = random.vector(-5, 5), seen = toCamera(truth, point);
       if (seen[2] < 0.02 * seen.norm()) continue;
-      points.push_back(point), bearings.push_back(seen.normalized());
+      points.push_back(point);
+      bearings.push_back(seen.normalized());
     }
     const FocalPoses poses = absolute_pose::p3p(NoncentralHybridAdapter({}, {}, {}, {}, {}, bearings, points), 1);
     EXPECT_LT(distanceToNearest(poses, truth), 1e-5) << trial;
