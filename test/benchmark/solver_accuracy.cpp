@@ -75,7 +75,7 @@ void addHomotopyRows(bool awkward, std::vector<Row>* rows) {
     addScenes("h51f_" + nameOf(pattern), pattern, h51fScenes(), awkward, {"", nullptr, 1, {}, &solveH51f}, rows);
   for (const RaysPerCamera& pattern : h70fPatterns()) {
     const bool isClosedForm = pattern[0] == 6;
-    const Row like{"", isClosedForm ? kH70f : nullptr, 0, {}, isClosedForm ? nullptr : &solveH70f};
+    const Row like{"", isClosedForm ? solvers::rowsOf("h70f").begin() : nullptr, 0, {}, isClosedForm ? nullptr : &solveH70f};
     addScenes("h70f_" + nameOf(pattern), pattern, h70fScenes(), awkward, like, rows);
   }
 }
