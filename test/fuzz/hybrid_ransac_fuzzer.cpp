@@ -1,5 +1,7 @@
 // The hybrid RANSAC on a few arbitrary correspondences: a result that can be relied on, a reason why there is none, or
 // std::invalid_argument for data that are not finite.
+#include <limits>
+
 #include "RawAdapter.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 
@@ -22,6 +24,10 @@ void check(const sac::HybridRansacResult& result) {
   if (std::isnan(result.score) || std::isnan(result.focalLengthStandardDeviation) || std::isnan(result.noise2d2d) ||
       std::isnan(result.noise2d3d))
     fuzz::reportFault("results are numbers");
+  if (!std::isfinite(result.distortion) || std::isnan(result.distortionStandardDeviation) ||
+      !std::isfinite(result.simpleRadialFocalLength) || !std::isfinite(result.simpleRadialK1) ||
+      std::isnan(result.simpleRadialK1StandardDeviation))
+    fuzz::reportFault("lenses are numbers");
   if (result.success && !std::isfinite(result.focalLengthStandardDeviation))
     fuzz::reportFault("a successful result is determined");
 }
@@ -33,6 +39,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   sac::HybridRansacOptions options;
   options.maxIterations = 30;
   try {
+    check(sac::hybridRansac(fuzz::RawAdapter(sample), options));
+    options.queryCamera = sac::QueryCamera::Radial;
+    // By turns kept always, and if the data speak for it.
+    if (size % 2 == 1) options.distortionEvidence = -std::numeric_limits<double>::infinity();
     check(sac::hybridRansac(fuzz::RawAdapter(sample), options));
   } catch (const std::invalid_argument&) {
     return 0;
