@@ -38,7 +38,8 @@ int main() {
   adapter.setRigFocalLengths({1000, 1000});
 
   const hybridgv::sac::HybridRansacResult pinhole = hybridgv::sac::hybridRansac(adapter);
-  std::printf("distortion ignored: focal length %.1f +- %.1f px\n", pinhole.pose.focalLength, pinhole.focalLengthStandardDeviation);
+  std::printf("distortion ignored: focal length %.1f +- %.1f px\n", pinhole.pose.focalLength,
+              pinhole.focalLengthStandardDeviation);
 
   // [readme]
   hybridgv::sac::HybridRansacOptions options;

@@ -7,12 +7,12 @@
 #include <hybridgv/sac/HybridRansac.hpp>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
 #include "../common/processorSeconds.hpp"
+#include "../common/sceneName.hpp"
 #include "common/PoseError.hpp"
 #include "common/ProgressBar.hpp"
 #include "common/Statistics.hpp"
@@ -64,13 +64,6 @@ std::vector<Query> makeQueries(const SparseModel& map) {
     if (image.registered && !depths.empty()) queries.push_back({makeLocalizationProblem(map, i), median(depths)});
   }
   return queries;
-}
-
-// "crane" for .../crane/, "kermit" for .../kermit/bundle.out: file names tend to be all the same.
-std::string sceneName(const std::string& map) {
-  const std::filesystem::path path = std::filesystem::absolute(map).lexically_normal() / "";
-  const std::filesystem::path last = path.parent_path();
-  return std::filesystem::is_directory(map) ? last.filename() : last.parent_path().filename();
 }
 
 struct Attempt {

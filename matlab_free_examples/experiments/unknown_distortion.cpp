@@ -14,6 +14,7 @@
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
 #include "../common/processorSeconds.hpp"
+#include "../common/sceneName.hpp"
 #include "WideScene.hpp"
 #include "common/PoseError.hpp"
 #include "common/ProgressBar.hpp"
@@ -229,7 +230,7 @@ void writeMaps(const std::vector<std::string>& maps, int repetitions, const Comm
           }
         }
       }
-      writeRows(csv, text(path, ',', 100 * outliers), attempts);
+      writeRows(csv, text(sceneName(path), ',', 100 * outliers), attempts);
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "SolverConfigurations.hpp"
 #include "damage.hpp"
 #include "expectRefused.hpp"
+#include "hybridgv/distortion.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 #include "hybridgv/sac_problems/hybrid_pose/MultiHybridPoseSacProblem.hpp"
@@ -309,6 +310,36 @@ TEST_F(SacProblem, KnownFocalLengthIsKept) {
   problem.optimizeModelCoefficients(all, model, refined);
   EXPECT_EQ(refined.focalLength, data_.truth.focalLength);
   EXPECT_TRUE(test::isFocalPoseNear(refined, data_.truth, 0.01, 0.3));
+}
+
+// The distorted image with its distortion known is the pinhole image.
+TEST_F(SacProblem, KnownDistortionIsRemovedFirst) {
+  const double distortion = -2e-7;
+  test::MinimalProblem seen = data_;
+  const auto distortImagePoint = [&](auto& match) {
+    const Eigen::Vector3d image = *distort(distortion, {match.u, match.v, 1});
+    match.u = image[0];
+    match.v = image[1];
+  };
+  for (auto& ray : seen.rays) distortImagePoint(ray);
+  for (auto& point : seen.points) distortImagePoint(point);
+  const NoncentralHybridAdapter adapter = test::makeAdapter(seen);
+  const HybridPoseSacProblem known(adapter, Solver::H13f, kReprojectionPx, kEpipolarPx, 1, {}, distortion);
+  const HybridPoseSacProblem ignored(adapter, Solver::H13f, kReprojectionPx, kEpipolarPx, 1);
+  const std::vector<int> all = *known.getIndices();
+  std::vector<double> withLens, without;
+  known.getSelectedDistancesToModel(data_.truth, all, withLens);
+  ignored.getSelectedDistancesToModel(data_.truth, all, without);
+  EXPECT_LT(*std::max_element(withLens.begin(), withLens.end()), 1e-6);
+  EXPECT_GT(*std::max_element(without.begin(), without.end()), 0.1);
+}
+
+TEST_F(SacProblem, DistortionWithoutViewingDirectionsIsNamed) {
+  const auto problem = [&](double distortion) {
+    HybridPoseSacProblem(adapter_, Solver::H13f, kReprojectionPx, kEpipolarPx, 1, {}, distortion);
+  };
+  test::expectRefused("distortion", [&] { problem(-1); });
+  test::expectRefused("distortion", [&] { problem(std::numeric_limits<double>::infinity()); });
 }
 
 TEST_F(SacProblem, DegenerateSampleHasNoModel) {

@@ -13,6 +13,7 @@
 #include "hybrid_pose/optimizeNonlinear.hpp"
 #include "hybrid_pose/solveSample.hpp"
 #include "hybridgv/detail/format.hpp"
+#include "hybridgv/distortion.hpp"
 #include "math/RandomStream.hpp"
 #include "robust/SampleCheck.hpp"
 #include "robust/Sampler.hpp"
@@ -53,13 +54,31 @@ correspondences::Correspondences readAll(const hybridgv::hybrid_pose::HybridAdap
                                               correspondences::allIndices(counts.points));
 }
 
+template <class Match>
+void undistortImagePoint(double distortion, Match& match) {
+  const Eigen::Vector3d point = undistort(distortion, {match.u, match.v, 1});
+  if (point[2] == 0)
+    throwInvalid("distortion", "is " + detail::format(distortion) + ", with which the image point (" + detail::format(match.u) +
+                                   ", " + detail::format(match.v) + ") has no viewing direction");
+  match.u = point[0];
+  match.v = point[1];
+}
+
+correspondences::Correspondences undistorted(correspondences::Correspondences correspondences, double distortion) {
+  if (!std::isfinite(distortion)) throwInvalid("distortion", "must be finite, is " + detail::format(distortion));
+  if (distortion == 0) return correspondences;
+  for (correspondences::RigRay& ray : correspondences.rays) undistortImagePoint(distortion, ray.match);
+  for (correspondences::PointMatch& match : correspondences.points) undistortImagePoint(distortion, match);
+  return correspondences;
+}
+
 }  // namespace
 
 struct HybridProblemCore::Data {
   Data(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver id, double reprojectionPx, double epipolarPx,
-       std::optional<double> knownFocalLengthPx)
+       std::optional<double> knownFocalLengthPx, double distortion)
       : problem(solvers::rowsOf(id)),
-        correspondences(readAll(adapter)),
+        correspondences(undistorted(readAll(adapter), distortion)),
         arrays(correspondences),
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx),
@@ -212,8 +231,9 @@ const std::vector<int>& CorrespondencePool::indices() const { return data_->indi
 
 HybridProblemCore::HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver,
                                      double maxReprojectionErrorPx, double maxEpipolarErrorPx,
-                                     std::optional<double> knownFocalLengthPx)
-    : data_(std::make_shared<const Data>(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx)) {}
+                                     std::optional<double> knownFocalLengthPx, double distortion)
+    : data_(std::make_shared<const Data>(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx,
+                                         distortion)) {}
 
 std::array<int, 2> HybridProblemCore::size() const { return {data_->count2d2d(), data_->count2d3d()}; }
 std::array<int, 2> HybridProblemCore::sampleSize() const { return {data_->problem.rays(), data_->problem.points()}; }

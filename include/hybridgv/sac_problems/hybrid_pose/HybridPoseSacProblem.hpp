@@ -66,13 +66,16 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
   /// \param maxEpipolarErrorPx  largest Sampson error of an inlier among the 2D-2D correspondences [px]
   /// \param seed  of everything random
   /// \param knownFocalLengthPx  of the query [px], for a solver that needs it (P3P ..), and only for one of these
+  /// \param distortion  of the query's image [1/px^2] (distortion.hpp), for instance from sac::hybridRansac: it is removed from the image
+  ///        points first, and thresholds are in pixels of the undistorted image. OpenGV's loops cannot estimate it.
   ///
   /// \throws std::invalid_argument for fewer correspondences than the solver needs, thresholds that are not positive and finite,
-  ///         a focal length that is not, is missing or is given to a solver that estimates it, correspondences that are not finite.
+  ///         a focal length that is not, is missing or is given to a solver that estimates it, correspondences that are not finite, a distortion
+  ///         with which an image point has no viewing direction.
   HybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
-                       std::uint64_t seed = 0, std::optional<double> knownFocalLengthPx = {})
+                       std::uint64_t seed = 0, std::optional<double> knownFocalLengthPx = {}, double distortion = 0)
       : SampleConsensusProblem(false),
-        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx),
+        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx, distortion),
         raysFromOneCamera_(core_.drawsRaysFromOneCamera()),
         pool_(core_.makePool({})) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));

@@ -42,12 +42,15 @@ class HYBRIDGV_EXPORT HybridProblemCore {
  public:
   /// Copies the adapter's correspondences; it is not needed afterwards.
   ///
-  /// `knownFocalLengthPx`: of the query, for a solver that needs it, and only for one of these.
+  /// `knownFocalLengthPx`: of the query, for a solver that needs it, and only for one of these. `distortion`: of the division model
+  /// [1/px^2] (distortion.hpp), known and removed from the query's image points before anything else; thresholds are then in pixels of
+  /// the undistorted image.
   ///
   /// \throws std::invalid_argument for fewer correspondences than the solver needs, thresholds that are not positive and finite,
-  ///         a focal length that is not, is missing or is given to a solver that estimates it, correspondences that are not finite.
+  ///         a focal length that is not, is missing or is given to a solver that estimates it, correspondences that are not finite, a distortion
+  ///         with which an image point has no viewing direction.
   HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterBase& adapter, Solver solver, double maxReprojectionErrorPx,
-                    double maxEpipolarErrorPx, std::optional<double> knownFocalLengthPx = {});
+                    double maxEpipolarErrorPx, std::optional<double> knownFocalLengthPx = {}, double distortion = 0);
 
   /// Numbers of 2D-2D and 2D-3D correspondences of the data.
   std::array<int, 2> size() const;

@@ -37,9 +37,9 @@ class MultiHybridPoseSacProblem : public opengv::sac::MultiSampleConsensusProble
 
   /// Copies the adapter's correspondences; parameters and errors are those of HybridPoseSacProblem's constructor.
   MultiHybridPoseSacProblem(const adapter_t& adapter, Solver solver, double maxReprojectionErrorPx, double maxEpipolarErrorPx,
-                            std::uint64_t seed = 0, std::optional<double> knownFocalLengthPx = {})
+                            std::uint64_t seed = 0, std::optional<double> knownFocalLengthPx = {}, double distortion = 0)
       : MultiSampleConsensusProblem(false),
-        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx),
+        core_(adapter, solver, maxReprojectionErrorPx, maxEpipolarErrorPx, knownFocalLengthPx, distortion),
         raysFromOneCamera_(core_.drawsRaysFromOneCamera()),
         pool_(core_.makePool({})) {
     rng_gen_ = std::make_shared<std::function<int()>>(randomSequence(seed));
