@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
 #include "math/RandomStream.hpp"
 
@@ -33,17 +32,22 @@ Key keyOf(const std::array<Number, N>& numbers) {
 
 // Equal keys get equal numbers 0, 1, ..; returns how many there are.
 int number(const std::vector<Key>& keys, std::vector<int>& numbers) {
-  std::vector<std::pair<Key, std::size_t>> sorted;
-  sorted.reserve(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) sorted.emplace_back(keys[i], i);
-  std::sort(sorted.begin(), sorted.end());
+  // A hash table with linear probing, at most half full, of the places where a key was first seen. The keys are hashes already.
+  constexpr std::size_t kFree = ~std::size_t{0};
+  std::size_t size = 16;
+  while (size < 2 * keys.size()) size *= 2;
+  std::vector<std::size_t> slots(size, kFree);
   numbers.resize(keys.size());
   int count = 0;
-  for (std::size_t k = 0; k < sorted.size(); ++k) {
-    if (k > 0 && sorted[k - 1].first != sorted[k].first) ++count;
-    numbers[sorted[k].second] = count;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    std::size_t slot = static_cast<std::size_t>(keys[i]) & (size - 1);
+    while (slots[slot] != kFree && keys[slots[slot]] != keys[i]) slot = (slot + 1) & (size - 1);
+    const bool isNew = slots[slot] == kFree;
+    if (isNew) slots[slot] = i;
+    numbers[i] = isNew ? count : numbers[slots[slot]];
+    count += isNew;
   }
-  return keys.empty() ? 0 : count + 1;
+  return count;
 }
 
 Key cellOf(double u, double v) { return keyOf(std::array<double, 2>{std::floor(u / kCell), std::floor(v / kCell)}); }
@@ -75,6 +79,9 @@ class DifferentNumbers {
 
 Evidence::Evidence(const correspondences::CorrespondenceArrays& arrays) {
   std::vector<Key> cells, rays, points;
+  cells.reserve(arrays.rays().size() + arrays.points().size());
+  rays.reserve(arrays.rays().size());
+  points.reserve(arrays.points().size());
   for (const correspondences::RayMatch& ray : arrays.rays()) {
     cells.push_back(cellOf(ray.u, ray.v));
     rays.push_back(itemOf(ray.camera, ray.direction));

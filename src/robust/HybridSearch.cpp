@@ -13,7 +13,7 @@ namespace robust {
 namespace {
 
 // Batches grow, because what was learnt from one steers the next: to 128 samples, then with a quarter of all before.
-constexpr int kFirstBatch = 16, kLeastBatch = 8, kLargestBatch = 128, kLargestPart = 4;
+constexpr int kFirstBatch = 8, kLeastBatch = 8, kLargestBatch = 128, kLargestPart = 4;
 
 int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / kLargestPart); }
 
@@ -39,11 +39,14 @@ void undistortAll(double distortion, Match* matches, int count) {
   }
 }
 
-// Correspondences of one group may share errors: the rays of a rig camera; every point is a group of its own.
+// Correspondences of one group may share errors: the rays of a rig camera. Points, which are in random order, are groups of their
+// own, or as many together as leave this number of groups: more groups cost more and say little more.
 JackknifeGroups groupsOf(const CorrespondenceArrays& arrays) {
+  constexpr std::size_t kGroups = 64;
   JackknifeGroups groups;
   for (const correspondences::RayMatch& ray : arrays.rays()) groups.rays.push_back(ray.camera);
-  groups.points = correspondences::allIndices(arrays.points().size());
+  const std::size_t points = arrays.points().size(), together = (points + kGroups - 1) / kGroups;
+  for (std::size_t i = 0; i < points; ++i) groups.points.push_back(static_cast<int>(i / together));
   return groups;
 }
 
@@ -121,13 +124,13 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
   return number < other.number;
 }
 
-// If less than one wrong pose of those tried so far is expected to look as good; or if it is the best so far, as long as no
-// better one is known.
+// The best minimal solution so far, as long as no pose is believed. After that only better ones lead to another optimum, and less
+// than one wrong pose of those tried must be expected to look as good.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
-  if (significance_.isPromising(candidate.logChance)) return true;
-  if (bestIsSignificant_ || (bestCandidate_ && !candidate.isLessLikelyChance(*bestCandidate_))) return false;
-  bestCandidate_ = candidate;
-  return true;
+  const bool isPromising = significance_.isPromising(candidate.logChance);
+  const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
+  if (isBest) bestCandidate_ = candidate;
+  return bestIsSignificant_ ? isPromising && isBest : isPromising || isBest;
 }
 
 void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {

@@ -6,12 +6,15 @@ namespace hybridgv {
 namespace robust {
 
 LevelCounts countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold) {
-  LevelCounts counts{};
-  for (int& count : counts) {
-    for (std::size_t i = 0; i < size; ++i) count += squaredErrors[i] < squaredThreshold ? 1 : 0;
-    if (count == 0) break;
+  // Most errors are above all thresholds.
+  double squared[kLevels];
+  for (double& threshold : squared) {
+    threshold = squaredThreshold;
     squaredThreshold /= 4;
   }
+  LevelCounts counts{};
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t level = 0; level < kLevels && squaredErrors[i] < squared[level]; ++level) ++counts[level];
   return counts;
 }
 

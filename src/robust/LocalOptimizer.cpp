@@ -121,13 +121,11 @@ QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   const double ray = scorer_.thresholds().rays, point = scorer_.thresholds().points;
   QueryPose pose = start;
   for (const Stage& stage : stages) pose = leastTruncated(stage.rays * ray, stage.points * point, pose, kBothKinds, stage.steps);
-  pose = leastTruncated(ray, point, pose, moreThanChance(pose), {10, 1e-4});
+  pose = leastTruncated(ray, point, pose, moreThanChance(pose), kCoarse);
   return settle(pose, moreThanChance(pose));
 }
 
-QueryPose LocalOptimizer::settle(const QueryPose& start, const Kinds& kinds) const {
-  return likeliest(start, kinds, 2, {10, 1e-4});
-}
+QueryPose LocalOptimizer::settle(const QueryPose& start, const Kinds& kinds) const { return likeliest(start, kinds, 2, kCoarse); }
 
 QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
   QueryPose pose = start;
@@ -138,10 +136,11 @@ QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, 
   return pose;
 }
 
-QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
+QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& last,
                                         RayTreatment& treatment) const {
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
+    const Steps& steps = round + 1 < rounds ? kCoarse : last;
     SquaredErrors errors = squaredErrors(pose, kinds);
     treatment.leaveOut(errors.rays);
     const Noise at = noise(errors);
@@ -336,10 +335,10 @@ double LocalOptimizer::logEvidenceForDistortion(const QueryPose& pose) const {
 
 FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   FinalPose result;
+  result.pose = start;
   const Kinds kinds = moreThanChance(start);
   RayTreatment treatment(scorer_.arrays().rays().size());
-  constexpr Steps kFine{20, 1e-8};
-  result.pose = optimize ? withoutLevers(likeliest(start, kinds, 1, kFine), kinds, 3, kFine, treatment) : start;
+  if (optimize) result.pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, 3, {20, 1e-8}, treatment);
   SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
   treatment.leaveOut(errors.rays);
   result.refusedRays = treatment.refused();

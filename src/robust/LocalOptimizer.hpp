@@ -67,12 +67,13 @@ class LocalOptimizer {
     int iterations;
     double minDecrease;
   };
+  static constexpr Steps kCoarse{10, 1e-4};
   // Of errors that are truncated at these limits [px].
   QueryPose leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
                            const Steps& steps) const;
   QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
-  // The same with narrowed losses of the rays, and without those that are refused.
-  QueryPose withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
+  // The same with narrowed losses of the rays, and without those that are refused; only the last round to full precision.
+  QueryPose withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& last,
                           RayTreatment& treatment) const;
   // Refuses levers that the other correspondences do not predict; the pose without them.
   QueryPose refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start, const Steps& steps,
