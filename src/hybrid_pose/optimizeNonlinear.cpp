@@ -77,19 +77,25 @@ NonlinearResult optimizeNonlinear(const correspondences::Correspondences& corres
 
 static NonlinearResult optimizeChecked(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
                                        const QueryPose& initial, Intrinsics estimated) {
-  if (indices.size() != 2) throwInvalid("indices", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
-  const correspondences::Counts counts = correspondences::readCounts(adapter);
-  checkMultiIndices("indices", indices, {static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size())},
-                    {counts.rays, counts.points});
   checkPose("initial", initial);
   if (!std::isfinite(initial.distortion))
     throwInvalid("initialDistortion", "must be finite, is " + detail::format(initial.distortion));
   return optimizeNonlinear(correspondences::readCorrespondences(adapter, indices[0], indices[1]), initial, estimated);
 }
 
-static std::vector<std::vector<int>> allOf(const HybridAdapterBase& adapter) {
+static NonlinearResult optimizeListed(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
+                                      const QueryPose& initial, Intrinsics estimated) {
+  if (indices.size() != 2) throwInvalid("indices", "needs two lists {2D-2D, 2D-3D}, got " + std::to_string(indices.size()));
   const correspondences::Counts counts = correspondences::readCounts(adapter);
-  return {correspondences::allIndices(counts.rays), correspondences::allIndices(counts.points)};
+  checkMultiIndices("indices", indices, {static_cast<int>(indices[0].size()), static_cast<int>(indices[1].size())},
+                    {counts.rays, counts.points});
+  return optimizeChecked(adapter, indices, initial, estimated);
+}
+
+static NonlinearResult optimizeAll(const HybridAdapterBase& adapter, const QueryPose& initial, Intrinsics estimated) {
+  const correspondences::Counts counts = correspondences::readCounts(adapter);
+  return optimizeChecked(adapter, {correspondences::allIndices(counts.rays), correspondences::allIndices(counts.points)}, initial,
+                         estimated);
 }
 
 static QueryPose withDistortion(const FocalPose& pose, double distortion) {
@@ -100,20 +106,20 @@ static QueryPose withDistortion(const FocalPose& pose, double distortion) {
 
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
                                    const FocalPose& initial) {
-  return optimizeChecked(adapter, indices, initial, {});
+  return optimizeListed(adapter, indices, initial, {});
 }
 
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial) {
-  return optimizeChecked(adapter, allOf(adapter), initial, {});
+  return optimizeAll(adapter, initial, {});
 }
 
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const std::vector<std::vector<int>>& indices,
                                    const FocalPose& initial, double initialDistortion) {
-  return optimizeChecked(adapter, indices, withDistortion(initial, initialDistortion), {true, true});
+  return optimizeListed(adapter, indices, withDistortion(initial, initialDistortion), {true, true});
 }
 
 NonlinearResult optimize_nonlinear(const HybridAdapterBase& adapter, const FocalPose& initial, double initialDistortion) {
-  return optimizeChecked(adapter, allOf(adapter), withDistortion(initial, initialDistortion), {true, true});
+  return optimizeAll(adapter, withDistortion(initial, initialDistortion), {true, true});
 }
 
 }  // namespace hybrid_pose

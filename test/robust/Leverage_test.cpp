@@ -126,7 +126,8 @@ TEST(Leverage, OfASingleWrongRaySeldomHoldsAPose) {
     const FocalPose wrong = withWrongFocalLength(rightArrays, problem, minimum, 5);
     const test::HybridScene scene = withLever(random, right, wrong);
 
-    const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
+    correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
+    arrays.fixUnknownFocalLengths();
     const PoseScorer scorer(arrays, {6, 12}, sac::Scoring::Msac);
     const ChanceModel chance(arrays, 6, 12);
     const LocalOptimizer optimizer(scorer, chance, {}, 0, 1e9);

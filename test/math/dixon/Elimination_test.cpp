@@ -51,9 +51,8 @@ TEST(Elimination, FindsTheNullVectorOfASingularMatrix) {
     Matrix8 matrices[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       matrices[lane] = randomMatrix(random);
-      matrices[lane].col(lane) = matrices[lane].rightCols<6>() * Eigen::Matrix < double;
-      6;
-      1 > ::LinSpaced(-1, 1);
+      const Eigen::Matrix<double, 6, 1> weights = Eigen::Matrix<double, 6, 1>::LinSpaced(-1, 1);
+      matrices[lane].col(lane) = matrices[lane].rightCols<6>() * weights;
       setLane(matrices[lane], lane, m);
     }
     math::eliminate(m);
