@@ -86,7 +86,8 @@ double percentOf(const std::vector<Attempt>& attempts, bool Attempt::*property) 
 }
 
 const std::string kColumns =
-    "camera,right_percent,focal_percent,focal_percent_90,rotation_deg,position,k1,error_over_deviation,milliseconds,kept_percent";
+    "camera,right_percent,focal_percent,focal_percent_90,rotation_deg,position,k1_found,error_over_deviation,milliseconds,kept_"
+    "percent";
 
 void writeRows(CsvFile& csv, const std::string& key, const Attempts& attempts) {
   for (std::size_t camera = 0; camera < kCameras.size(); ++camera) {

@@ -48,6 +48,10 @@ TEST(Lens, OfImagePointsAtTheCentreOrNoneIsAPinhole) {
   scene.image2d3d.assign(5, {0, 0, 1});
   EXPECT_EQ(read(scene).imageRadius(), 0);
   EXPECT_FALSE(makeLens(read(scene), options).isUnknown);
+  for (const double coordinate : {1e200, 1e-200}) {  // their squares are no numbers
+    scene.image2d3d.assign(5, {coordinate, 0, 1});
+    EXPECT_FALSE(makeLens(read(scene), options).isUnknown);
+  }
 }
 
 TEST(Lens, AFewImagePointsFarAwayDoNotDecideItsUnit) {

@@ -48,7 +48,7 @@ struct SeenPoint {
 inline SeenPoint makeSeenPoint(Random& random, const FocalPose& query, const WideSceneOptions& options) {
   for (;;) {
     const Eigen::Vector3d place = random.vector(-1, 1);
-    const double depth = 11 + 6 * place[2], width = 1.3 * kWideHalfSize / query.focalLength * depth;
+    const double depth = 11 + 6 * place[2], width = 1.1 * kWideHalfSize / query.focalLength * depth;
     const Eigen::Vector3d inQuery =
         options.isBox ? toCamera(query, 5 * place) : Eigen::Vector3d(width * place[0], width * place[1], depth);
     const Eigen::Vector2d exact = options.lens(inQuery.hnormalized(), query.focalLength);
