@@ -17,6 +17,11 @@ class FocalLengthGuess {
   // Around the image's size, or any other length near the focal length: 2^-0.5 to 2^1.5 times as long.
   static FocalLengthGuess around(double imageSize, double least, double most);
 
+  // Around a focal length that is known up to this standard deviation of its logarithm.
+  static FocalLengthGuess near(double focalLength, double logDeviation, double least, double most);
+  // Always this one.
+  static FocalLengthGuess exactly(double focalLength) { return {focalLength, 0, focalLength, focalLength}; }
+
   double draw(math::RandomStream& random) const;
 
  private:

@@ -50,6 +50,19 @@ JackknifeGroups groupsOf(const CorrespondenceArrays& arrays) {
   return groups;
 }
 
+FocalLengthPrior makePrior(const sac::HybridRansacOptions& options) {
+  if (!options.focalLengthPriorPx) return {};
+  return {*options.focalLengthPriorPx, options.focalLengthPriorLogDeviation};
+}
+
+FocalLengthGuess makeGuess(const sac::HybridRansacOptions& options, const CorrespondenceArrays& arrays) {
+  if (options.knownFocalLengthPx) return FocalLengthGuess::exactly(*options.knownFocalLengthPx);
+  const double least = options.minFocalLength, most = options.maxFocalLength;
+  const FocalLengthPrior prior = makePrior(options);
+  return prior.isGiven() ? FocalLengthGuess::near(prior.focalLength, prior.logDeviation, least, most)
+                         : FocalLengthGuess::around(arrays.imageSize(), least, most);
+}
+
 }  // namespace
 
 HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,
@@ -58,18 +71,20 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       start_(start),
       data_(readSearchData(adapter, options)),
       lens_(makeLens(data_.arrays, options)),
-      estimated_{true, lens_.isUnknown},
-      choice_(makeStrategies(options.solvers, data_.sampler)),
-      guess_(FocalLengthGuess::around(data_.arrays.imageSize(), options.minFocalLength, options.maxFocalLength)),
+      estimated_{!options.knownFocalLengthPx, lens_.isUnknown},
+      choice_(makeStrategies(options.solvers, data_.sampler, estimated_)),
+      guess_(makeGuess(options, data_.arrays)),
       scorer_(data_.arrays, thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, data_.arrays),
               options.scoring),
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
       significance_(scorer_, chance_, data_.sampler, estimated_.parameters(), options.seed),
-      optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated_, lens_),
+      optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated_, lens_,
+                 makePrior(options)),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()),
       ofThreePointsAtFirst_(findable()) {
+  significance_.setFocalLengthPrior(makePrior(options));
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
 }
 
@@ -93,6 +108,7 @@ int HybridSearch::nextBatch(int batch) const {
 void HybridSearch::tryInitialPose() {
   Model model;
   model.pose = data_.arrays.normalization().apply(*options_.initialPose);
+  if (options_.knownFocalLengthPx) model.pose.focalLength = *options_.knownFocalLengthPx;
   SquaredErrors errors;
   model.evaluation = scorer_.evaluateAtClearestLevels(model.pose, chanceShares_, errors);
   if (model.evaluation.score > 0) consider(model);
@@ -162,16 +178,23 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
 
 // Before anything is known of the data, a pose from three points must be seen by as large a share of the other points as is needed for
 // a few such samples to be found at all. Most wrong poses are told so without a look at the rays.
+//
+// The bound of the errors may be much too large for that: the threshold is one within which a wrong pose has a thousandth of the points.
+double HybridSearch::firstScale() const {
+  constexpr double kShare = 1e-3;
+  return std::min(std::sqrt(kShare / chance_.pointShare()), 1.0);
+}
+
 Expectation HybridSearch::findable() const {
   constexpr double kFindableShare = 0.07, kFew = 3;
   const double share = kUnoptimizedShare * std::min(std::cbrt(kFew / options_.maxIterations), kFindableShare);
-  return {{0, share}, {0, chance_.pointShare()}};
+  return {{0, share}, {0, chance_.pointShare(firstScale())}};
 }
 
 Evaluation HybridSearch::evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own,
                                   WorkerState& worker) const {
   if (bestIsSignificant_) return scorer_.evaluate(pose, expectation_, own);
-  if (strategy.solver.points >= 3 && !scorer_.pointsLeaveHope(pose, ofThreePointsAtFirst_, own)) return {};
+  if (strategy.solver.points >= 3 && !scorer_.pointsLeaveHope(pose, firstScale(), ofThreePointsAtFirst_, own)) return {};
   return scorer_.evaluateAtClearestLevels(pose, chanceShares_, worker.errors);
 }
 
@@ -239,8 +262,9 @@ void HybridSearch::replaceIfLikelier(const QueryPose& pose, Model& model) const 
 }
 
 // Distance and focal length have almost the same effect on the images, so that the likelihood has local optima along both. The
-// right one is found from nearer or farther away, the focal length keeping the images' size.
+// right one is found from nearer or farther away, the focal length keeping the images' size. A known focal length has no such optima.
 void HybridSearch::escapeLocalOptimum(Model& model) const {
+  if (!estimated_.focalLength) return;
   model.logLikelihood = optimizer_.logLikelihood(model.pose);
   for (const double factor : kDistanceFactors)
     for (double before = -std::numeric_limits<double>::infinity(); model.logLikelihood > before + kLeastGain;) {

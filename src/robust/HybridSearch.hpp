@@ -81,6 +81,7 @@ class HybridSearch {
   void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                         WorkerState& worker) const;
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;
+  double firstScale() const;
   Expectation findable() const;
   void consider(const Model& candidate);
   void compare(const Model& optimized);

@@ -51,6 +51,15 @@ void addPrior(const DistortionPrior& prior, double distortion, Linearization<N>&
   sums.hessian(N - 1, N - 1) += weight;
 }
 
+// The focal length comes behind the pose.
+template <int N>
+void addPrior(const FocalLengthPrior& prior, double focalLength, Linearization<N>& sums) {
+  const double weight = prior.weight(focalLength);
+  sums.cost += prior.cost(focalLength);
+  sums.gradient[kPoseParameters] += weight * prior.logDifference(focalLength);
+  sums.hessian(kPoseParameters, kPoseParameters) += weight;
+}
+
 template <int N>
 Linearization<N> linearize(const LeastSquaresProblem& problem, const QueryPose& pose) {
   const NormalEquations sums = normalEquations(problem, pose);
@@ -66,6 +75,8 @@ Linearization<N> linearize(const LeastSquaresProblem& problem, const QueryPose& 
     }
   }
   if (N > kPoseParameters && problem.estimated.radial) addPrior<N>(problem.distortionPrior, pose.distortion, result);
+  if constexpr (N > kPoseParameters)
+    if (problem.estimated.focalLength) addPrior<N>(problem.focalLengthPrior, pose.focalLength, result);
   return result;
 }
 

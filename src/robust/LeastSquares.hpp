@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "correspondences/CorrespondenceArrays.hpp"
+#include "robust/FocalLengthPrior.hpp"
 #include "robust/ParameterMatrix.hpp"
 #include "robust/PerKind.hpp"
 #include "robust/QueryPose.hpp"
@@ -26,7 +27,7 @@ struct DistortionPrior {
 };
 
 // The problem: minimize over the correspondences of the kinds that take part the sum of precision * scale^2 rho((error / scale)^2),
-// and if the distortion is estimated, the cost of its prior.
+// and if the distortion or the focal length are estimated, the costs of their priors.
 struct LeastSquaresProblem {
   const Kernels* kernels;
   PointArrays points;
@@ -35,6 +36,7 @@ struct LeastSquaresProblem {
   Kinds kinds = kBothKinds;  // that take part
   Intrinsics estimated;      // the others keep the value that they have in the pose
   DistortionPrior distortionPrior = {};
+  FocalLengthPrior focalLengthPrior = {};
 };
 
 struct LeastSquaresOptions {

@@ -103,14 +103,15 @@ void allowForHiddenErrors(double& ray, double& point) {
 }  // namespace
 
 LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
-                               double maxFocalLength, Intrinsics estimated, Lens lens)
+                               double maxFocalLength, Intrinsics estimated, Lens lens, FocalLengthPrior focalLengthPrior)
     : scorer_(scorer),
       chance_(chance),
       groups_(std::move(groups)),
       minFocalLength_(minFocalLength),
       maxFocalLength_(maxFocalLength),
       estimated_(estimated),
-      lens_(std::move(lens)) {}
+      lens_(std::move(lens)),
+      focalLengthPrior_(focalLengthPrior) {}
 
 QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   struct Stage {
@@ -120,7 +121,11 @@ QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   constexpr Stage stages[] = {{16, 2, {2, 1e-2}}, {8, 2, {2, 1e-2}}, {4, 1.5, {2, 1e-2}}, {2, 1, {2, 1e-2}}};
   const double ray = scorer_.thresholds().rays, point = scorer_.thresholds().points;
   QueryPose pose = start;
-  for (const Stage& stage : stages) pose = leastTruncated(stage.rays * ray, stage.points * point, pose, kBothKinds, stage.steps);
+  // The solution of a sample at the true focal length is near enough for the narrower ones.
+  const Stage* const first = estimated_.focalLength ? std::begin(stages) : std::begin(stages) + 2;
+  std::for_each(first, std::end(stages), [&](const Stage& stage) {
+    pose = leastTruncated(stage.rays * ray, stage.points * point, pose, kBothKinds, stage.steps);
+  });
   pose = leastTruncated(ray, point, pose, moreThanChance(pose), kCoarse);
   return settle(pose, moreThanChance(pose));
 }
@@ -184,6 +189,7 @@ QueryPose LocalOptimizer::refuseLevers(const LeastSquaresProblem& robust, const 
 
 double LocalOptimizer::deviationWithoutLevers(const LeastSquaresProblem& inliers, const QueryPose& pose,
                                               RayTreatment treatment) const {
+  if (!estimated_.focalLength) return 0;
   treatment.refuse(leversOf(inliers, pose, treatment));
   const PaddedValues narrowing = treatment.narrowing();
   ParameterMatrix covariance;
@@ -193,6 +199,7 @@ double LocalOptimizer::deviationWithoutLevers(const LeastSquaresProblem& inliers
 }
 
 bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
+  if (!estimated_.focalLength) return true;
   const Kinds kinds = moreThanChance(pose);
   const Noise at = noise(squaredErrors(pose, kinds));
   ParameterMatrix covariance;
@@ -204,8 +211,7 @@ bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
   const Kinds kinds = moreThanChance(final.pose);
   const auto logLikelihoodAt = [&](const QueryPose& pose) {
     const SquaredErrors errors = squaredErrors(pose, kinds);
-    return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) -
-           lens_.prior.cost(pose.distortion) / 2;
+    return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) - priorCost(pose) / 2;
   };
   LeastSquaresProblem atFixedFocalLength = problem(final.noise.rays.loss(), final.noise.points.loss(), kinds);
   atFixedFocalLength.estimated.focalLength = false;
@@ -239,6 +245,7 @@ QueryPose LocalOptimizer::leastTruncated(double rayLimit, double pointLimit, con
                                          const Steps& steps) const {
   LeastSquaresProblem truncated = problem(truncatedLoss(rayLimit), truncatedLoss(pointLimit), kinds);
   truncated.distortionPrior.factor = kPriorOfTruncated;
+  truncated.focalLengthPrior.factor = kPriorOfTruncated;
   return minimize(truncated, start, limits(steps)).pose;
 }
 
@@ -257,6 +264,7 @@ LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindL
   LeastSquaresProblem result = makeProblem(scorer_.arrays(), pointLoss, rayLoss, estimated_);
   result.kinds = kinds;
   result.distortionPrior = lens_.prior;
+  result.focalLengthPrior = focalLengthPrior_;
   return result;
 }
 
@@ -321,7 +329,11 @@ LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Ki
 double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
   const SquaredErrors errors = squaredErrors(pose, kBothKinds);
   const Noise at = noise(errors);
-  return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points) - lens_.prior.cost(pose.distortion) / 2;
+  return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points) - priorCost(pose) / 2;
+}
+
+double LocalOptimizer::priorCost(const QueryPose& pose) const {
+  return lens_.prior.cost(pose.distortion) + focalLengthPrior_.cost(pose.focalLength);
 }
 
 double LocalOptimizer::logEvidenceForDistortion(const QueryPose& pose) const {
@@ -338,7 +350,8 @@ FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   result.pose = start;
   const Kinds kinds = moreThanChance(start);
   RayTreatment treatment(scorer_.arrays().rays().size());
-  if (optimize) result.pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, 3, {20, 1e-8}, treatment);
+  const int rounds = estimated_.focalLength ? 3 : 2;  // a focal length that is not free gives the levers less to move
+  if (optimize) result.pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, rounds, {20, 1e-8}, treatment);
   SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
   treatment.leaveOut(errors.rays);
   result.refusedRays = treatment.refused();

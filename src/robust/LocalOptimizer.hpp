@@ -28,7 +28,7 @@ class LocalOptimizer {
  public:
   // The scorer and the chance model must outlive the optimizer. `groups`: of correspondences that share errors.
   LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
-                 double maxFocalLength, Intrinsics estimated = {}, Lens lens = {});
+                 double maxFocalLength, Intrinsics estimated = {}, Lens lens = {}, FocalLengthPrior focalLengthPrior = {});
 
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
   // wide, because a solution from noisy points is far from most viewing rays, and narrows down to the thresholds.
@@ -79,6 +79,8 @@ class LocalOptimizer {
   QueryPose refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start, const Steps& steps,
                          RayTreatment& treatment) const;
   double deviationWithoutLevers(const LeastSquaresProblem& inliers, const QueryPose& pose, RayTreatment treatment) const;
+  // -2 log of the likelihood of what is estimated of the camera, before anything is seen.
+  double priorCost(const QueryPose& pose) const;
   LeastSquaresOptions limits(const Steps& steps) const;
   LeastSquaresProblem problem(const KindLoss& rayLoss, const KindLoss& pointLoss, const Kinds& kinds) const;
 
@@ -88,6 +90,7 @@ class LocalOptimizer {
   double minFocalLength_, maxFocalLength_;
   Intrinsics estimated_;
   Lens lens_;
+  FocalLengthPrior focalLengthPrior_;
 };
 
 }  // namespace robust

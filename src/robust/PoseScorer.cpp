@@ -112,10 +112,11 @@ Evaluation PoseScorer::evaluate(const QueryPose& pose, const Expectation& expect
   return result;
 }
 
-bool PoseScorer::pointsLeaveHope(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own) const {
+bool PoseScorer::pointsLeaveHope(const QueryPose& pose, double scale, const Expectation& expectation,
+                                 const OwnCorrespondences& own) const {
   SequentialTest test(expectation, own, points_.size + rays_.size);
   Evaluation unused;
-  return addAll(chunks_.points, bounds_.points, toPlain(pose), test, unused);
+  return addAll(chunks_.points, scale * bounds_.points, toPlain(pose), test, unused);
 }
 
 void PoseScorer::computeErrors(const QueryPose& pose, PerKind<std::vector<double>>& errors) const {

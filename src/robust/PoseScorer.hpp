@@ -62,8 +62,8 @@ class PoseScorer {
   // The same, given up early where there is no hope. Of the two kinds that one comes first of which a wrong pose is sooner seen to
   // be one.
   Evaluation evaluate(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own = {}) const;
-  // The same test for the points alone, with the bound of their threshold: whether the pose may be a good one.
-  bool pointsLeaveHope(const QueryPose& pose, const Expectation& expectation, const OwnCorrespondences& own) const;
+  // The same test for the points alone, with a threshold `scale` times its bound: whether the pose may be a good one.
+  bool pointsLeaveHope(const QueryPose& pose, double scale, const Expectation& expectation, const OwnCorrespondences& own) const;
   // Over all correspondences, with the thresholds at which the inliers exceed most clearly what chance gives: bounds / 2^k of each
   // kind. `chance`: shares of a wrong pose's inliers; `errors`: room for those of both kinds.
   Evaluation evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance, PerKind<std::vector<double>>& errors) const;

@@ -89,19 +89,20 @@ bool Significance::isPromising(double logChance) const { return logAlarms(logCha
 bool Significance::isSignificant(const QueryPose& pose) { return isLessLikelyThan(kLogFalseAlarms, pose); }
 
 bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose) {
+  const double logOdds = focalLengthPrior_.logOdds(pose.focalLength);
   const SquaredErrors errors{scorer_.squaredRayErrors(pose), scorer_.squaredPointErrors(pose)};
   const PlainPose plain = toPlain(pose);
   const auto sharesOf = [&](const OtherPairs& pairs) {
     return pairs.shares(plain, scorer_.bounds().rays, scorer_.bounds().points);
   };
   Shares shares = chance_.levelShares();
-  if (!isLessLikelyThan(logFalseAlarms, errors, shares)) return false;
+  if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), seed_);
   shares = largest(shares, sharesOf(*randomPairs_));
-  if (!isLessLikelyThan(logFalseAlarms, errors, shares)) return false;
+  if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
   if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_);
   shares = largest(shares, sharesOf(*neighbours_));
-  return isLessLikelyThan(kLogFalseAlarmsOfNeighbours, errors, shares);
+  return isLessLikelyThan(kLogFalseAlarmsOfNeighbours + logOdds, errors, shares);
 }
 
 bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& errors, const Shares& shares) const {

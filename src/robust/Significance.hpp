@@ -7,6 +7,7 @@
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/ChanceModel.hpp"
 #include "robust/Evidence.hpp"
+#include "robust/FocalLengthPrior.hpp"
 #include "robust/OtherPairs.hpp"
 #include "robust/PoseScorer.hpp"
 #include "robust/Sampler.hpp"
@@ -27,6 +28,8 @@ class Significance {
 
   // As above, from now on.
   void setParameters(int parameters) { parameters_ = parameters; }
+  // What is known of the focal length: a pose that agrees with it is less likely a wrong one.
+  void setFocalLengthPrior(const FocalLengthPrior& prior) { focalLengthPrior_ = prior; }
   // Tells how many samples have been drawn so far.
   void setSamples(int samples);
 
@@ -54,6 +57,7 @@ class Significance {
   int parameters_;
   std::uint64_t seed_;
   double logSamples_ = 0;
+  FocalLengthPrior focalLengthPrior_;
   Evidence evidence_;
   // Made when they are first needed.
   std::optional<OtherPairs> randomPairs_, neighbours_;

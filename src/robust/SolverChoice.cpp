@@ -32,9 +32,11 @@ static void addStrategies(const sac::SolverPrior& entry, const Sampler& sampler,
   }
 }
 
-std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler) {
+std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler, Intrinsics estimated) {
   std::vector<Strategy> result;
-  for (const sac::SolverPrior& entry : priors) addStrategies(entry, sampler, result);
+  for (const sac::SolverPrior& entry : priors)
+    if (estimated.focalLength || !solvers::rowsOf(entry.solver).begin()->intrinsics.focalLength)
+      addStrategies(entry, sampler, result);
   return result;
 }
 

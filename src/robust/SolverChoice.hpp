@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/ParameterMatrix.hpp"
 #include "robust/Sampler.hpp"
 #include "solvers/MinimalProblems.hpp"
 
@@ -19,8 +20,9 @@ struct Strategy {
   double cost() const;  // microseconds per sample, scoring included
 };
 
-// The strategies for the given solvers that have enough data.
-std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& solvers, const Sampler& sampler);
+// The strategies for the given solvers that have enough data and do not estimate what is known.
+std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& solvers, const Sampler& sampler,
+                                     Intrinsics estimated = {});
 
 // A strategy s is drawn with probability proportional to prior x P_s / cost, P_s the probability that its sample has inliers
 // only. There is no factor (1 - P_s)^k_s for its k_s samples so far, as in Camposeco et al. (CVPR 2018): samples are independent,

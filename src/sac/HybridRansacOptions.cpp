@@ -33,6 +33,27 @@ static void requireListed(const std::vector<Enumeration>& values, const char* na
     throwInvalid(std::string("options.") + name, "no such value: " + std::to_string(static_cast<int>(value)));
 }
 
+static void checkFocalLength(const HybridRansacOptions& options) {
+  const auto checkValue = [&](const char* name, const std::optional<double>& value) {
+    if (!value) return;
+    require(*value > 0 && std::isfinite(*value), name, *value, "positive and finite");
+    require(*value >= options.minFocalLength && *value <= options.maxFocalLength, name, *value,
+            "between minFocalLength and maxFocalLength");
+  };
+  checkValue("knownFocalLengthPx", options.knownFocalLengthPx);
+  checkValue("focalLengthPriorPx", options.focalLengthPriorPx);
+  const double deviation = options.focalLengthPriorLogDeviation;
+  require(deviation > 0 && std::isfinite(deviation), "focalLengthPriorLogDeviation", deviation, "positive and finite");
+  if (options.knownFocalLengthPx && options.focalLengthPriorPx)
+    throwInvalid("options.focalLengthPriorPx",
+                 "has no meaning beside knownFocalLengthPx, is " + detail::format(*options.focalLengthPriorPx));
+  const auto estimatesIt = [](const SolverPrior& entry) { return solvers::rowsOf(entry.solver).begin()->intrinsics.focalLength; };
+  if (options.knownFocalLengthPx && !options.solvers.empty() &&
+      std::all_of(options.solvers.begin(), options.solvers.end(), estimatesIt))
+    throwInvalid("options.solvers",
+                 "all estimate the focal length, but knownFocalLengthPx is " + detail::format(*options.knownFocalLengthPx));
+}
+
 void HybridRansacOptions::check() const {
   const auto positiveFinite = [](double value) { return value > 0 && std::isfinite(value); };
   const auto isThreshold = [](double value) { return value >= 0 && std::isfinite(value); };
@@ -66,6 +87,7 @@ void HybridRansacOptions::check() const {
     for (auto other = solvers.begin(); other != entry; ++other)
       if (other->solver == entry->solver)
         throwInvalid("options.solvers", std::string(hybridgv::toString(entry->solver)) + " is listed twice");
+  checkFocalLength(*this);
   requireListed({Scoring::Msac, Scoring::InlierCount}, "scoring", scoring);
   requireListed({Sampling::Uniform, Sampling::QualityOrdered}, "sampling", sampling);
   if (!initialPose) return;

@@ -26,6 +26,10 @@ TEST(Misuse, RansacRefusesWrongOptions) {
       {"minFocalLength", {kNaN, kInfinite, -kInfinite, -1}, [](auto& o, double v) { o.minFocalLength = v; }},
       {"maxFocalLength", {kNaN, -kInfinite, 0, -1}, [](auto& o, double v) { o.maxFocalLength = v; }},
       {"maxFocalLength", {500, 1000}, [](auto& o, double v) { o.minFocalLength = 1000, o.maxFocalLength = v; }},
+      {"knownFocalLengthPx", {kNaN, kInfinite, -kInfinite, 0, -1}, [](auto& o, double v) { o.knownFocalLengthPx = v; }},
+      {"focalLengthPriorPx", {kNaN, kInfinite, 0, -1}, [](auto& o, double v) { o.focalLengthPriorPx = v; }},
+      {"focalLengthPriorPx", {900}, [](auto& o, double v) { o.focalLengthPriorPx = o.knownFocalLengthPx = v; }},
+      {"focalLengthPriorLogDeviation", {kNaN, kInfinite, 0, -1}, [](auto& o, double v) { o.focalLengthPriorLogDeviation = v; }},
       {"imageRadiusPx", {kNaN, kInfinite, -kInfinite, -1}, [](auto& o, double v) { o.imageRadiusPx = v; }},
       {"distortionScale", {kNaN, kInfinite, 0, -1}, [](auto& o, double v) { o.distortionScale = v; }},
       {"distortionEvidence", {kNaN, kInfinite}, [](auto& o, double v) { o.distortionEvidence = v; }},
@@ -56,6 +60,14 @@ TEST(Misuse, RansacRefusesWrongListsOfSolversAndWrongStarts) {
   expectRefused("no solver", "solvers", [&] { sac::hybridRansac(adapter, options); });
   options.solvers = {{Solver::P4Pf, 1}, {Solver::H13f, 1}, {Solver::P4Pf, 2}};
   expectRefused("repeated solver", "solvers", [&] { sac::hybridRansac(adapter, options); });
+  options.solvers = {{Solver::P4Pf, 1}, {Solver::H13f, 1}};
+  options.knownFocalLengthPx = 1000;
+  expectRefused("solvers that estimate what is known", "solvers", [&] { sac::hybridRansac(adapter, options); });
+  options = {};
+  options.knownFocalLengthPx = 1000;
+  options.minFocalLength = 1200;
+  expectRefused("known but too small", "knownFocalLengthPx", [&] { sac::hybridRansac(adapter, options); });
+  options = {};
   for (const Solver solver : noSolvers()) {
     const std::string value = std::to_string(static_cast<int>(solver));
     options.solvers = {{Solver::P4Pf, 1}, {solver, 1}};

@@ -92,13 +92,13 @@ TEST(PoseScorer, OwnCorrespondencesAreNoEvidence) {
   FocalPose wrong = data.truth();
   wrong.rotation.rightCols<2>() *= -1;  // looks away: no inlier at all
   EXPECT_FALSE(scorer.evaluate(wrong, expectation).complete);
-  EXPECT_FALSE(scorer.pointsLeaveHope(wrong, expectation, {}));
+  EXPECT_FALSE(scorer.pointsLeaveHope(wrong, 1, expectation, {}));
   std::vector<int> all(300);
   std::iota(all.begin(), all.end(), 0);
   const OwnCorrespondences own{{nullptr, all.data()}, {0, 300}};
   EXPECT_TRUE(scorer.evaluate(wrong, expectation, own).complete);
-  EXPECT_TRUE(scorer.pointsLeaveHope(wrong, expectation, own));
-  EXPECT_TRUE(scorer.pointsLeaveHope(data.truth(), expectation, {}));
+  EXPECT_TRUE(scorer.pointsLeaveHope(wrong, 1, expectation, own));
+  EXPECT_TRUE(scorer.pointsLeaveHope(data.truth(), 1, expectation, {}));
 }
 
 }  // namespace

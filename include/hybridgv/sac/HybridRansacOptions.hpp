@@ -61,6 +61,16 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   double minFocalLength = 0;                                        ///< [px] solutions with a smaller one are dropped
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] solutions with a larger one are dropped
 
+  /// [px] The focal length, if it is known: of a calibrated camera, for example. It is kept, and six parameters are estimated. An error
+  /// of it shows only as far as the images contradict it: in fewer inliers, and in a noise that is too large for the matches.
+  std::optional<double> knownFocalLengthPx;
+  /// [px] The focal length, if it is known roughly: from EXIF, or of another image. It is estimated, but of poses that fit equally well
+  /// the one near to this value is taken, and a pose that agrees with it needs about one inlier less to be believed. Its logarithm has
+  /// Student's distribution with 3 degrees of freedom, so that a wrong value gives way to the data.
+  std::optional<double> focalLengthPriorPx;
+  /// Of log f: 0.1 for what cameras store, 0.3 for a guess.
+  double focalLengthPriorLogDeviation = 0.1;
+
   /// A success needs a standard deviation of the focal length below this share of it, also without the rays that have most
   /// influence on it.
   double maxFocalLengthDeviation = 0.3;
@@ -79,7 +89,8 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// which lambda is estimated. Lenses between them and somewhat beyond are found.
   std::vector<double> distortionHypotheses = {0, -0.1, -0.25};
 
-  /// The solvers to choose from. One whose correspondences are absent is left out by itself.
+  /// The solvers to choose from. One whose correspondences are absent is left out by itself, and with a known focal length one that
+  /// estimates it. Those that need it are given knownFocalLengthPx, or a guess.
   std::vector<SolverPrior> solvers = defaultSolvers();
   Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized
   Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn
