@@ -65,7 +65,7 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   0,   0, false, kUnknownFocalLength, &h70f::solve},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 0,   0, true,  kUnknownFocalLength, &h70f::solve},
-    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 3,  6, false, kKnownFocalLength,   &known_focal::p3p},
+    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 1,  6, false, kKnownFocalLength,   &known_focal::p3p},
 };
 // clang-format on
 
