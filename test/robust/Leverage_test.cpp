@@ -128,7 +128,8 @@ TEST(Leverage, OfASingleWrongRaySeldomHoldsAPose) {
 
     correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
     arrays.fixUnknownFocalLengths();
-    const PoseScorer scorer(arrays, {6, 12}, sac::Scoring::Msac);
+    PoseScorer scorer(arrays, {6, 12}, sac::Scoring::Msac);
+    scorer.setThresholds({2.5 * kNoise, 2.5 * kNoise});
     const ChanceModel chance(arrays, 6, 12);
     const LocalOptimizer optimizer(scorer, chance, {}, 0, 1e9);
     const auto squaredError = [&](const FocalPose& pose) { return scorer.squaredRayErrors(pose).back(); };
