@@ -7,6 +7,7 @@
 
 #include "hybridgv/distortion.hpp"
 #include "robust/SampleCheck.hpp"
+#include "robust/sampleLimit.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -14,6 +15,8 @@ namespace {
 
 // Batches grow, because what was learnt from one steers the next: to 128 samples, then with a quarter of all before.
 constexpr int kFirstBatch = 8, kLeastBatch = 8, kLargestBatch = 128, kLargestPart = 4;
+
+constexpr int kSamplesIfHopeless = 24;
 
 int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / kLargestPart); }
 
@@ -86,13 +89,21 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       ofThreePointsAtFirst_(findable()) {
   significance_.setFocalLengthPrior(makePrior(options));
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
+  mostIterations_ = mostIterations();
+}
+
+// No more samples than there are. If even a pose with which all correspondences agree were chance, a few are enough.
+int HybridSearch::mostIterations() const {
+  const std::size_t variants = lens_.isUnknown ? lens_.hypotheses.size() : 1;
+  double most = drawsOfAllSamples(data_.sampler, choice_.strategies(), variants);
+  if (isHopeless(data_.sampler, chance_, estimated_.parameters())) most = std::min(most, static_cast<double>(kSamplesIfHopeless));
+  return static_cast<int>(std::min(std::ceil(std::max(most, 1.)), static_cast<double>(options_.maxIterations)));
 }
 
 void HybridSearch::run() {
   if (options_.initialPose) tryInitialPose();
   if (choice_.strategies().empty()) return;
-  for (int batch = kFirstBatch; !isDone(); batch = nextBatch(batch))
-    tryBatch(std::min(batch, options_.maxIterations - iterations_));
+  for (int batch = kFirstBatch; !isDone(); batch = nextBatch(batch)) tryBatch(std::min(batch, mostIterations_ - iterations_));
 }
 
 // The last one ends where the search does.
@@ -308,8 +319,8 @@ bool HybridSearch::isOutOfTime() const {
 bool HybridSearch::isDone() {
   if (isOutOfTime()) {
     stopReason_ = sac::StopReason::TimeBudget;
-  } else if (iterations_ >= options_.maxIterations) {
-    stopReason_ = sac::StopReason::MaxIterations;
+  } else if (iterations_ >= mostIterations_) {
+    stopReason_ = mostIterations_ < options_.maxIterations ? sac::StopReason::NoMoreSamples : sac::StopReason::MaxIterations;
   } else if (bestIsSignificant_ && iterations_ >= options_.minIterations &&
              choice_.missProbability() < 1 - options_.successProbability) {
     stopReason_ = sac::StopReason::Confident;

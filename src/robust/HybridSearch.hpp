@@ -75,6 +75,7 @@ class HybridSearch {
 
   void tryInitialPose();
   void tryBatch(int count);
+  int mostIterations() const;
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
@@ -120,7 +121,7 @@ class HybridSearch {
   bool bestIsSignificant_ = false;
   Expectation expectation_;           // once a pose is significant
   Expectation ofThreePointsAtFirst_;  // of a pose from three points at least, before
-  int iterations_ = 0, localOptimizations_ = 0;
+  int iterations_ = 0, mostIterations_ = 0, localOptimizations_ = 0;
   sac::StopReason stopReason_ = sac::StopReason::NotStarted;
 };
 

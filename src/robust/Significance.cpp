@@ -14,15 +14,11 @@ namespace {
 
 using SquaredErrors = PerKind<std::vector<double>>;
 
-// log10 of the expected number of wrong poses that look like the result; and if they had the larger shares of inliers that pairs of
-// neighbours have, which most of them have not.
-constexpr double kLogFalseAlarms = -6, kLogFalseAlarmsOfNeighbours = -2;
-// The first without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
+// If wrong poses had the larger shares of inliers that pairs of neighbours have, which most of them have not.
+constexpr double kLogFalseAlarmsOfNeighbours = -2;
+// Without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
 // every way, and up to half of them are inliers there.
 constexpr double kLogFalseAlarmsOfRays = -25;
-// One of 49 choices of the two kinds' levels is the best by chance: log10 of their number.
-constexpr double kLogChoices = 1.690196080028514;
-static_assert(kLevels == 7, "");
 
 Shares largest(const Shares& a, const Shares& b) {
   Shares result;

@@ -15,6 +15,12 @@
 namespace hybridgv {
 namespace robust {
 
+// log10 of the expected number of wrong poses that look like a result.
+constexpr double kLogFalseAlarms = -6;
+// One of 49 choices of the two kinds' levels is the best by chance: log10 of their number.
+constexpr double kLogChoices = 1.690196080028514;
+static_assert(kLevels * kLevels == 49, "kLogChoices");
+
 // Of many wrong poses some look good by chance. What counts is therefore the expected number of wrong poses, among those tried so
 // far, that look as good as the pose in question: the probability that one does times their number.
 //

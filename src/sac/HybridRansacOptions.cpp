@@ -123,6 +123,8 @@ const char* toString(StopReason reason) {
       return "maximum of iterations";
     case StopReason::TimeBudget:
       return "time budget";
+    case StopReason::NoMoreSamples:
+      return "no more samples";
   }
   throwInvalid("reason", "no such value: " + std::to_string(static_cast<int>(reason)));
 }

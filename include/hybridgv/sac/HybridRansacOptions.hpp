@@ -125,6 +125,7 @@ enum class StopReason {
   Confident,      ///< successProbability reached
   MaxIterations,  ///< maxIterations reached
   TimeBudget,     ///< timeBudgetSeconds reached
+  NoMoreSamples,  ///< there are no more samples, or all correspondences together are too few to be more than chance
 };
 
 /// The reason in words: "none", "too few correspondences", and so on.
