@@ -54,19 +54,20 @@ std::vector<double> inlierRadii(const robust::SearchData& data, const HybridRans
   return radii;
 }
 
-// k1 depends on the distortion c by a slope, which is taken from a difference, and on the focal length by its square. `covariance`
-// ends with log f and c.
+// k1 depends on the distortion c by a slope, which is taken from a difference, and on the focal length by its square.
 double deviationOfK1(const HybridRansacResult& result, const std::vector<double>& radii,
-                     const robust::ParameterMatrix& covariance) {
+                     const robust::ParameterMatrix& covariance, robust::Intrinsics estimated) {
   const Eigen::Index c = covariance.rows() - 1, logF = c - 1;
   const double step = 0.01 * std::sqrt(covariance(c, c)), f = result.pose.focalLength;
   const double byDistortion =
       (toSimpleRadial(f, result.distortion + step, radii).k1 - toSimpleRadial(f, result.distortion - step, radii).k1) /
       (2 * step);
-  const double byLogF = 2 * result.simpleRadialK1;
-  return std::sqrt(std::max(byDistortion * byDistortion * covariance(c, c) + 2 * byDistortion * byLogF * covariance(c, logF) +
-                                byLogF * byLogF * covariance(logF, logF),
-                            0.));
+  double variance = byDistortion * byDistortion * covariance(c, c);
+  if (estimated.focalLength) {
+    const double byLogF = 2 * result.simpleRadialK1;
+    variance += 2 * byDistortion * byLogF * covariance(c, logF) + byLogF * byLogF * covariance(logF, logF);
+  }
+  return std::sqrt(std::max(variance, 0.));
 }
 
 // After the masks.
@@ -79,7 +80,8 @@ void setLens(const robust::HybridSearch& search, const robust::FinalPose& final,
   if (!search.estimated().radial) return;
   const double infinity = std::numeric_limits<double>::infinity();
   result.distortionStandardDeviation = final.isRegular ? std::sqrt(robust::varianceOfDistortion(final.covariance)) : infinity;
-  result.simpleRadialK1StandardDeviation = final.isRegular ? deviationOfK1(result, radii, final.covariance) : infinity;
+  result.simpleRadialK1StandardDeviation =
+      final.isRegular ? deviationOfK1(result, radii, final.covariance, search.estimated()) : infinity;
 }
 
 void setStatistics(const robust::HybridSearch& search, HybridRansacResult& result) {

@@ -103,6 +103,10 @@ TEST(UnknownDistortion, StandardDeviationsAreThoseOfTheErrors) {
     ASSERT_TRUE(result.success);
     ofFocalLength.push_back(std::abs(result.pose.focalLength - scene.truth.focalLength) / result.focalLengthStandardDeviation);
     ofDistortion.push_back(std::abs(result.distortion - distortion) / result.distortionStandardDeviation);
+    const double relative = result.focalLengthStandardDeviation / result.pose.focalLength;
+    EXPECT_NEAR(std::sqrt(result.covariance[48]), relative, 1e-9);
+    const double k1 = result.simpleRadialK1StandardDeviation / std::abs(result.simpleRadialK1);
+    EXPECT_NEAR(k1, result.distortionStandardDeviation / std::abs(result.distortion), 3 * relative + 0.2 * k1);
   }
   EXPECT_GT(median(ofFocalLength), 0.4);
   EXPECT_LT(median(ofFocalLength), 1);
