@@ -32,15 +32,15 @@ struct Image {
   std::string name;        ///< as in the file
   std::size_t camera = 0;  ///< index into SparseModel::cameras
   bool registered = true;  ///< false: the file lists the image without a pose that can be used, or its camera cannot be used
-  /// An image that is not registered and is written again as it was read, with its observations: its camera alone cannot be used.
-  /// False: it has no observations.
-  bool carried = false;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< camera -> model
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< centre of the camera in the model's frame
   std::vector<Observation> observations;                   ///< its features
   /// The pose as a COLMAP file has it, qw, qx, qy, qz, tx, ty, tz of x_camera = R(q) X + t; all zero: from elsewhere. The writers
   /// write it again, bit by bit, as long as rotation and position are those that it stands for.
   std::array<double, 7> storedPose{};
+  /// An image that is not registered and is written again as it was read, with its observations: its camera alone cannot be used.
+  /// False: it has no observations.
+  bool carried = false;
 };
 
 /// One observation of a point: `SparseModel::images[image].observations[observation]`.
