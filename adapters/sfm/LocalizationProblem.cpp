@@ -71,6 +71,12 @@ std::vector<Vote> votesOf(const SparseModel& map, const QueryImage& query, LeftO
   return votes;
 }
 
+PointLimits limitsOf(const LocalizationProblemOptions& options) {
+  checkNotNegative("options.minParallaxDeg", options.minParallaxDeg);
+  checkNotNegative("options.maxMapReprojectionErrorPx", options.maxMapReprojectionErrorPx);
+  return {options.minParallaxDeg * std::acos(-1.0) / 180, options.maxMapReprojectionErrorPx};
+}
+
 // Makes the correspondences of a query, keypoint by keypoint.
 class Matcher {
  public:
@@ -80,7 +86,8 @@ class Matcher {
         query_(query),
         withheld_(withheld),
         camera_(query.camera, query.knowledge),
-        limits_{options.minParallaxDeg * std::acos(-1.0) / 180, options.maxMapReprojectionErrorPx},
+        limits_(limitsOf(options)),
+        certainPoints_(withheld == kNoImage ? options.certainPoints.get() : nullptr),
         raysBesidePoints_(options.raysBesidePoints),
         leftOut_(query.leftOut) {}
 
@@ -110,7 +117,7 @@ class Matcher {
       if (point == Observation::kNoPoint || isSettled[i] != 0) continue;
       const auto isSame = [&](const Vote& v) { return v.point == point; };
       if (std::find_if(votes.begin(), votes.end(), isSame) - votes.begin() != static_cast<std::ptrdiff_t>(i)) continue;
-      const std::optional<Eigen::Vector3d> position = certainPosition(map_, point, withheld_, limits_);
+      const std::optional<Eigen::Vector3d> position = certainPositionOf(point);
       if (!position) continue;
       hasPoint = true;
       double weight = 0;  // votes times mean score
@@ -125,6 +132,11 @@ class Matcher {
       if (!hasPoint || (raysBesidePoints_ && isSettled[i] == 0)) addRay(imagePoint, votes[i]);
   }
 
+  std::optional<Eigen::Vector3d> certainPositionOf(std::size_t point) const {
+    if (certainPoints_ == nullptr) return certainPosition(map_, point, withheld_, limits_);
+    return (*certainPoints_)[point] != 0 ? std::optional<Eigen::Vector3d>(map_.points[point].position) : std::nullopt;
+  }
+
   void addRay(const Eigen::Vector3d& imagePoint, const Vote& vote) {
     if (const std::optional<MapRay> ray = mapRay(map_, vote.image, map_.images[vote.image].observations[vote.observation]))
       matches_.rays.push_back({imagePoint, ray->bearing, vote.image, vote.point, vote.keypoint, vote.score});
@@ -135,6 +147,7 @@ class Matcher {
   const std::size_t withheld_;
   const QueryCamera camera_;
   const PointLimits limits_;
+  const std::vector<char>* certainPoints_;  // null: not known yet
   const bool raysBesidePoints_;
   LeftOut leftOut_;
   Matches matches_;
@@ -189,8 +202,9 @@ LocalizationProblem toProblem(const SparseModel& model, const Matches& matches) 
 
 LocalizationProblem makeProblem(const SparseModel& map, const QueryImage& query, std::size_t withheld,
                                 const LocalizationProblemOptions& options) {
-  checkNotNegative("options.minParallaxDeg", options.minParallaxDeg);
-  checkNotNegative("options.maxMapReprojectionErrorPx", options.maxMapReprojectionErrorPx);
+  if (options.certainPoints && options.certainPoints->size() != map.points.size())
+    throwInvalid("options.certainPoints", "are " + std::to_string(options.certainPoints->size()) + ", the map has " +
+                                              std::to_string(map.points.size()) + " points");
   Matcher matcher(map, query, withheld, options);
   LocalizationProblem problem = toProblem(map, matcher.match());
   problem.imageName = query.name;
@@ -248,6 +262,13 @@ QueryImage takeOut(const SparseModel& model, std::size_t index, bool undistort) 
 }
 
 }  // namespace
+
+std::shared_ptr<const std::vector<char>> findCertainPoints(const SparseModel& map, const LocalizationProblemOptions& options) {
+  const PointLimits limits = limitsOf(options);
+  std::vector<char> isCertain(map.points.size());
+  for (std::size_t i = 0; i < isCertain.size(); ++i) isCertain[i] = certainPosition(map, i, kNoImage, limits) ? 1 : 0;
+  return std::make_shared<const std::vector<char>>(std::move(isCertain));
+}
 
 LocalizationProblem makeLocalizationProblem(const SparseModel& map, const QueryImage& query,
                                             const LocalizationProblemOptions& options) {

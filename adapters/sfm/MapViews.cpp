@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <unordered_set>
 
 #include "CameraModels.hpp"
 #include "CheckArguments.hpp"
@@ -15,13 +17,12 @@ namespace {
 // What the images other than the one withheld see of a point: one view per image, in the order of the track.
 std::vector<View> viewsOf(const SparseModel& model, std::size_t pointIndex, std::size_t withheld) {
   std::vector<View> views;
-  std::vector<std::size_t> done{withheld};
+  std::unordered_set<std::size_t> done{withheld};
   for (const TrackElement& e : model.points[pointIndex].track) {
     if (e.image >= model.images.size() || e.observation >= model.images[e.image].observations.size())
       throwInvalid(modelElement("points", pointIndex), "the track names an observation that does not exist");
     const Image& image = model.images[e.image];
-    if (std::find(done.begin(), done.end(), e.image) != done.end() || !image.registered) continue;
-    done.push_back(e.image);
+    if (!done.insert(e.image).second || !image.registered) continue;
     checkPose(model, e.image);
     if (const std::optional<MapRay> ray = mapRay(model, e.image, image.observations[e.observation])) views.push_back(ray->view);
   }

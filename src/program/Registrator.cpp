@@ -45,6 +45,7 @@ class Registration {
  public:
   explicit Registration(const RegistratorArguments& arguments)
       : arguments_(arguments),
+        options_(arguments.localization),
         map_(read()),
         queries_(ColmapDatabase(arguments.database), map_, arguments.queries),
         threads_(arguments.threads > 0 ? arguments.threads
@@ -53,6 +54,8 @@ class Registration {
   int run() {
     names_ = wanted();
     openOutputs();
+    options_.estimateDistortion = arguments_.estimateDistortion;
+    if (names_.size() > kFewQueries) options_.matches.certainPoints = findCertainPoints(map_, options_.matches);
     findCommonCameras();
     SparseModel result = map_;
     localizeAll(names_, "", [&](Outcome& outcome) {
@@ -158,8 +161,7 @@ class Registration {
 
   void localize(const std::optional<CameraEstimate>& common, Outcome& outcome) const {
     if (!arguments_.estimateFocalLength) outcome.query.knowledge = CameraKnowledge::Known;
-    QueryOptions options = arguments_.localization;
-    options.estimateDistortion = arguments_.estimateDistortion;
+    QueryOptions options = options_;
     const double side = static_cast<double>(std::max(outcome.query.camera.width, outcome.query.camera.height));
     if (side > 0) {
       options.ransac.minFocalLength = arguments_.minFocalRatio * side;
@@ -208,7 +210,11 @@ class Registration {
     if (!arguments_.quiet) table_.printSummary(stderr, skipped_, interrupted != 0 ? names_.size() : 0);
   }
 
+  // So few do not meet all points of the map.
+  static constexpr std::size_t kFewQueries = 20;
+
   const RegistratorArguments& arguments_;
+  QueryOptions options_;
   const SparseModel map_;
   DatabaseQueries queries_;
   const int threads_;

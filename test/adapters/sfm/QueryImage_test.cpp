@@ -88,6 +88,19 @@ TEST(QueryImage, MatchesWithoutACertainPointBecomeRays) {
   EXPECT_EQ(makeLocalizationProblem(scene.map, scene.query).keypoints2d2d, after.keypoints2d2d);
 }
 
+TEST(QueryImage, CertainPointsMayBeFoundBeforehand) {
+  QueryScene scene = makeQueryScene(11);
+  scene.map.points[makeLocalizationProblem(scene.map, scene.query).points2d3d[3]].position[1] += 50;
+  const LocalizationProblem anew = makeLocalizationProblem(scene.map, scene.query);
+  LocalizationProblemOptions options;
+  options.certainPoints = findCertainPoints(scene.map, options);
+  const LocalizationProblem before = makeLocalizationProblem(scene.map, scene.query, options);
+  EXPECT_EQ(before.points2d3d, anew.points2d3d);
+  EXPECT_EQ(before.keypoints2d2d, anew.keypoints2d2d);
+  scene.map.points.emplace_back();
+  EXPECT_THROW(makeLocalizationProblem(scene.map, scene.query, options), std::invalid_argument);
+}
+
 TEST(QueryImage, RaysBesidePointsAreAnOption) {
   QueryScene scene = makeQueryScene(5);
   ASSERT_GE(scene.query.matches.size(), 2u);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +34,15 @@ struct LocalizationProblemOptions {
   /// size and the shape of its pixels is used, and not even the principal point where the size is known. (Cameras whose distortion is
   /// beyond what one parameter describes, of the models fisheye, FOV and so on, are undistorted in any case.)
   bool undistortQuery = true;
+  /// What findCertainPoints() has found for the map and these options, to save the time where there are many queries that are not in
+  /// the map; null: looked for in every query anew.
+  std::shared_ptr<const std::vector<char>> certainPoints = {};
 };
+
+/// Which points of a map have the parallax and the small errors that `options` ask for: 1 or 0 for each of SparseModel::points.
+/// \throws std::invalid_argument for a map whose indices are not valid, and options that are negative or not finite
+HYBRIDGV_EXPORT std::shared_ptr<const std::vector<char>> findCertainPoints(const SparseModel& map,
+                                                                           const LocalizationProblemOptions& options = {});
 
 /// Hybrid correspondences of one query image.
 struct LocalizationProblem {
@@ -102,9 +111,9 @@ HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& m
 /// Image points are relative to the principal point, of square pixels. A known camera's are undistorted; otherwise the distortion is
 /// still in them (hybridRansac finds it with QueryCamera::Radial). Otherwise as for an image of the map: see above.
 ///
-/// 	hrows std::invalid_argument for a match with an image that does not exist, scores that are not one for each pair, a camera whose
-///         model cannot be estimated (SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV can) unless it is known, and what is
-///         wrong in those parts of the map that are needed
+/// \throws std::invalid_argument for options.certainPoints of another number of points, a match with an image that does not exist, scores
+///         that are not one for each pair, a camera whose model cannot be estimated (SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL,
+///         OPENCV can) unless it is known, and what is wrong in those parts of the map that are needed
 HYBRIDGV_EXPORT LocalizationProblem makeLocalizationProblem(const SparseModel& map, const QueryImage& query,
                                                             const LocalizationProblemOptions& options = {});
 
