@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "hybridgv/distortion.hpp"
 #include "robust/SampleCheck.hpp"
 #include "robust/sampleLimit.hpp"
 
@@ -30,16 +29,6 @@ constexpr double kSmallDeviation = 0.05;
 
 double chosenOf(const std::vector<double>& values, RandomStream& random) {
   return values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
-}
-
-template <class Match>
-void undistortAll(double distortion, Match* matches, int count) {
-  if (distortion == 0) return;
-  for (int k = 0; k < count; ++k) {
-    const Eigen::Vector3d point = undistort(distortion, {matches[k].u, matches[k].v, 1});
-    matches[k].u = point[0];
-    matches[k].v = point[1];
-  }
 }
 
 // Correspondences of one group may share errors: the rays of a rig camera. Points, which are in random order, are groups of their
@@ -89,6 +78,8 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       ofThreePointsAtFirst_(findable()) {
   significance_.setFocalLengthPrior(makePrior(options));
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
+  const auto isStaged = [](const Strategy& strategy) { return strategy.isStaged(); };
+  if (std::any_of(choice_.strategies().begin(), choice_.strategies().end(), isStaged)) staged_.emplace(data_);
   mostIterations_ = mostIterations();
 }
 
@@ -98,6 +89,11 @@ int HybridSearch::mostIterations() const {
   double most = drawsOfAllSamples(data_.sampler, choice_.strategies(), variants);
   if (isHopeless(data_.sampler, chance_, estimated_.parameters())) most = std::min(most, static_cast<double>(kSamplesIfHopeless));
   return static_cast<int>(std::min(std::ceil(std::max(most, 1.)), static_cast<double>(options_.maxIterations)));
+}
+
+bool HybridSearch::lacksScale() const {
+  const Sampler& sampler = data_.sampler;
+  return sampler.numberPoints() == 0 && sampler.numberCameras() == 1 && sampler.numberRays() >= estimated_.parameters();
 }
 
 void HybridSearch::run() {
@@ -128,6 +124,7 @@ void HybridSearch::tryInitialPose() {
 void HybridSearch::tryBatch(int count) {
   for (WorkerState& worker : workerStates_) {
     std::fill(worker.draws.begin(), worker.draws.end(), 0);
+    if (staged_) worker.ownScores = staged_->noScores();
     worker.best.reset();
   }
   workers_.forEach(count, [&](int i, std::size_t worker) {
@@ -137,6 +134,7 @@ void HybridSearch::tryBatch(int count) {
   for (const WorkerState& worker : workerStates_) {
     iterations_ += std::accumulate(worker.draws.begin(), worker.draws.end(), 0);
     for (std::size_t s = 0; s < worker.draws.size(); ++s) choice_.addDraws(s, worker.draws[s]);
+    if (staged_) staged_->learn(worker.ownScores);
     if (worker.best && (!best || worker.best->isLessLikelyChance(*best))) best = worker.best;
   }
   significance_.setSamples(iterations_);
@@ -165,26 +163,29 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   const std::size_t chosen = choice_.choose(random.uniform());
   ++worker.draws[chosen];
   const Strategy& strategy = choice_.strategies()[chosen];
-  const SampleSize size = strategy.size();
-  const DrawnSample sample = data_.sampler.draw(size, number, random);
-
-  correspondences::RayMatch rays[kMaxSampleSize];
-  correspondences::PointMatch points[kMaxSampleSize];
-  for (int k = 0; k < size.rays; ++k) rays[k] = data_.arrays.rays()[static_cast<std::size_t>(sample.rays[k])];
-  for (int k = 0; k < size.points; ++k) points[k] = data_.arrays.points()[static_cast<std::size_t>(sample.points[k])];
-  const double distortion = lens_.isUnknown ? chosenOf(lens_.hypotheses, random) : 0;
-  undistortAll(distortion, rays, size.rays);
-  undistortAll(distortion, points, size.points);
-  if (isDegenerate(rays, size.rays, points, size.points)) return;
-
-  const double focalLength = strategy.solver.intrinsics.focalLength ? 1 : guess_.draw(random);
-  const int found = solvers::solve(strategy.solver, rays, points, focalLength, worker.solutions.data());
-  const OwnCorrespondences own{{sample.rays, sample.points}, {size.rays, size.points}};
+  const DrawnSample sample = data_.sampler.draw(strategy.size(), number, random);
+  const SampleReader reader(data_.arrays, lens_.isUnknown ? chosenOf(lens_.hypotheses, random) : 0);
+  const int found = solve(strategy, sample, reader, random, worker);
+  const OwnCorrespondences own{{sample.rays, sample.points}, {strategy.solver.rays, strategy.solver.points}};
   for (int k = 0; k < found; ++k) {
     QueryPose solution = worker.solutions[static_cast<std::size_t>(k)];
-    solution.distortion = distortion;
+    solution.distortion = reader.distortion();
     considerSolution(solution, strategy, own, number, worker);
   }
+}
+
+int HybridSearch::solve(const Strategy& strategy, const DrawnSample& sample, const SampleReader& reader, RandomStream& random,
+                        WorkerState& worker) const {
+  const SampleSize size = strategy.size();
+  correspondences::RayMatch rays[kMaxSampleSize];
+  correspondences::PointMatch points[kMaxSampleSize];
+  for (int k = 0; k < size.rays; ++k) rays[k] = reader.ray(sample.rays[k]);
+  for (int k = 0; k < size.points; ++k) points[k] = reader.point(sample.points[k]);
+  if (isDegenerate(rays, size.rays, points, size.points)) return 0;
+  FocalPose* poses = worker.solutions.data();
+  if (strategy.isStaged()) return staged_->solve(sample, reader, scorer_.thresholds().rays, random, poses, worker.ownScores);
+  const double focalLength = strategy.solver.intrinsics.focalLength ? 1 : guess_.draw(random);
+  return solvers::solve(strategy.solver, rays, points, focalLength, poses);
 }
 
 // Before anything is known of the data, a pose from three points must be seen by as large a share of the other points as is needed for
@@ -296,7 +297,8 @@ void HybridSearch::learnFrom(const Model& model) {
   const InlierCounts inliers = inlierCounts(model.pose);
   std::vector<double> probabilities;
   for (const Strategy& strategy : choice_.strategies())
-    probabilities.push_back((1 - kFalseRejection) * data_.sampler.allInlierProbability(strategy.size(), inliers));
+    probabilities.push_back((1 - kFalseRejection) * strategy.yield() *
+                            data_.sampler.allInlierProbability(strategy.size(), inliers));
   choice_.setAllInlierProbabilities(probabilities);
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };

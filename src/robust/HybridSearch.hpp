@@ -16,6 +16,7 @@
 #include "robust/SearchData.hpp"
 #include "robust/Significance.hpp"
 #include "robust/SolverChoice.hpp"
+#include "robust/StagedSampling.hpp"
 #include "robust/Thresholds.hpp"
 #include "robust/WorkerPool.hpp"
 
@@ -39,6 +40,8 @@ class HybridSearch {
   HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options, Clock::time_point start);
 
   bool canStart() const { return !choice_.strategies().empty() || options_.initialPose; }
+  // Rays enough, but no scale: they come from one rig camera.
+  bool lacksScale() const;
   void run();
   // Final optimization of the best model (or only its noise and information).
   FinalPose finish(bool optimize);
@@ -70,6 +73,7 @@ class HybridSearch {
     std::array<FocalPose, solvers::kMaxSolutions> solutions;  // scratch
     std::vector<int> draws;                                   // per strategy
     PerKind<std::vector<double>> errors;                      // scratch
+    StagedSampling::OwnScores ownScores;                      // of the batch
     std::optional<Candidate> best;
   };
 
@@ -79,6 +83,9 @@ class HybridSearch {
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
+  // The poses of a sample to worker.solutions; their number.
+  int solve(const Strategy& strategy, const DrawnSample& sample, const SampleReader& reader, RandomStream& random,
+            WorkerState& worker) const;
   void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                         WorkerState& worker) const;
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;
@@ -113,6 +120,7 @@ class HybridSearch {
   Shares chanceShares_;  // at all levels
   Significance significance_;
   LocalOptimizer optimizer_;
+  std::optional<StagedSampling> staged_;  // if a strategy needs it
   WorkerPool workers_;
   std::vector<WorkerState> workerStates_;
 

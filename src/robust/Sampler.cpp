@@ -35,7 +35,11 @@ Sampler::Sampler(const std::vector<int>& cameraOfRay, std::vector<int> rayOrder,
     : rayOrder_(std::move(rayOrder)), pointOrder_(std::move(pointOrder)), growingPools_(growingPools) {
   std::map<int, std::vector<int>> byCamera;
   for (const int ray : rayOrder_) byCamera[cameraOfRay[static_cast<std::size_t>(ray)]].push_back(ray);
-  for (auto& entry : byCamera) raysOfCamera_.push_back(std::move(entry.second));
+  cameraOfRay_.resize(cameraOfRay.size());
+  for (auto& entry : byCamera) {
+    for (const int ray : entry.second) cameraOfRay_[static_cast<std::size_t>(ray)] = numberCameras();
+    raysOfCamera_.push_back(std::move(entry.second));
+  }
   listCameras();
 }
 
@@ -139,7 +143,7 @@ double Sampler::allInlierProbability(const SampleSize& wanted, const InlierCount
     case RayDraw::OneCamera:
       return points * oneCameraProbability(wanted.rays, inliers);
     case RayDraw::AllButOne:
-      return points * allButOneProbability(wanted.rays, inliers);
+      return points * allButOneProbability(wanted.rays, wanted.triesOfLastRay, inliers);
     case RayDraw::Spread:
       return points * spreadProbability(wanted.rays, inliers);
   }
@@ -165,10 +169,11 @@ double Sampler::oneCameraProbability(int count, const InlierCounts& inliers) con
       count, [&](std::size_t camera) { return hypergeometricAll(numberRays(camera), inliers.raysPerCamera[camera], count); });
 }
 
-double Sampler::allButOneProbability(int count, const InlierCounts& inliers) const {
+double Sampler::allButOneProbability(int count, int triesOfLast, const InlierCounts& inliers) const {
   return meanOverCameras(count - 1, [&](std::size_t camera) {
     const int good = inliers.raysPerCamera[camera], others = numberRays() - numberRays(camera);
-    return hypergeometricAll(numberRays(camera), good, count - 1) * hypergeometricAll(others, inliers.rays - good, 1);
+    const double otherIsGood = hypergeometricAll(others, inliers.rays - good, 1);
+    return hypergeometricAll(numberRays(camera), good, count - 1) * (1 - std::pow(1 - otherIsGood, triesOfLast));
   });
 }
 

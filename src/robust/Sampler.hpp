@@ -19,6 +19,7 @@ using solvers::RayDraw;
 struct SampleSize {
   int rays, points;
   RayDraw rayDraw;
+  int triesOfLastRay = 1;  // of RayDraw::AllButOne: a sample is good if one of so many last rays is
 };
 
 // Which correspondences are in a sample.
@@ -50,6 +51,11 @@ class Sampler {
   int numberRays(std::size_t camera) const { return static_cast<int>(raysOfCamera_[camera].size()); }
   int numberPoints() const { return static_cast<int>(pointOrder_.size()); }
   int numberCameras() const { return static_cast<int>(raysOfCamera_.size()); }
+  // The camera of a ray, and the rays of a camera; a number below numberCameras().
+  int cameraOf(int ray) const { return cameraOfRay_[static_cast<std::size_t>(ray)]; }
+  const std::vector<int>& raysOf(int camera) const { return raysOfCamera_[static_cast<std::size_t>(camera)]; }
+  // Any ray of another camera; there must be one.
+  int drawOfOthers(int camera, RandomStream& random) const;
   // Inliers among rays and points by their masks.
   InlierCounts count(const std::vector<char>& inlierRays, const std::vector<char>& inlierPoints) const;
 
@@ -62,22 +68,21 @@ class Sampler {
   };
   void listCameras();
   const CameraList& camerasWith(int rays) const { return camerasWith_[static_cast<std::size_t>(rays)]; }
-  const std::vector<int>& raysOf(int camera) const { return raysOfCamera_[static_cast<std::size_t>(camera)]; }
 
   int poolSize(int available, int sampleSize, int number) const;
   // Returns the camera, a place in raysOfCamera_.
   int drawOneCamera(int count, int number, RandomStream& random, int* sample) const;
   void drawAllButOne(int count, int number, RandomStream& random, int* sample) const;
-  int drawOfOthers(int camera, RandomStream& random) const;
   void drawSpread(int count, int number, RandomStream& random, int* sample) const;
   template <class Probability>
   double meanOverCameras(int count, Probability probability) const;
   double oneCameraProbability(int count, const InlierCounts& inliers) const;
-  double allButOneProbability(int count, const InlierCounts& inliers) const;
+  double allButOneProbability(int count, int triesOfLast, const InlierCounts& inliers) const;
   double spreadProbability(int count, const InlierCounts& inliers) const;
 
   std::vector<int> rayOrder_, pointOrder_;
   std::vector<std::vector<int>> raysOfCamera_;
+  std::vector<int> cameraOfRay_;
   std::array<CameraList, kMaxSampleSize + 1> camerasWith_;  // by the least number of rays
   bool growingPools_;
 };

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "robust/StagedSampling.hpp"
+
 namespace hybridgv {
 namespace robust {
 
@@ -14,6 +16,12 @@ constexpr double kSurely = 1 - 1e-12;
 static constexpr double kScoringCost = 0.2 / 3;
 
 double Strategy::cost() const { return solver.cost + kScoringCost * solver.maxSolutions; }
+
+SampleSize Strategy::size() const {
+  return {solver.rays, solver.points, solver.draw, isStaged() ? StagedSampling::kSeventhRays : 1};
+}
+
+double Strategy::yield() const { return isStaged() ? StagedSampling::kYield : 1; }
 
 // A single camera gives no spread rays.
 static bool canDraw(const Sampler& sampler, const Strategy& strategy) {

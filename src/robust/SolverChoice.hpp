@@ -16,7 +16,11 @@ struct Strategy {
   solvers::MinimalSolver solver;
   double prior;
 
-  SampleSize size() const { return {solver.rays, solver.points, solver.draw}; }
+  // Six rays of one camera and one of another are drawn in two stages.
+  bool isStaged() const { return solver.draw == RayDraw::AllButOne; }
+  SampleSize size() const;
+  // Of samples with inliers only, the share that leads to the right pose.
+  double yield() const;
   double cost() const;  // microseconds per sample, scoring included
 };
 

@@ -120,7 +120,7 @@ HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, c
   result.inliers2d2d.resize(search.data().rayIndices.size());
   result.inliers2d3d.resize(search.data().pointIndices.size());
   if (!search.canStart()) {
-    result.failureReason = FailureReason::TooFewCorrespondences;
+    result.failureReason = search.lacksScale() ? FailureReason::UndeterminedPose : FailureReason::TooFewCorrespondences;
   } else {
     search.run();
     setStatistics(search, result);

@@ -63,8 +63,8 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {Solver::H51f,  "h51f",           5, 1, RayDraw::OneCamera,  9, 2.6, 1,   2, false, kUnknownFocalLength, &one_centre::h51f},
     {Solver::H51f,  "h51f",           5, 1, RayDraw::Spread,    56, 220, 1,   2, true,  kUnknownFocalLength, &h51f::solve},
     {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
-    {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   0,   0, false, kUnknownFocalLength, &h70f::solve},
-    {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 0,   0, true,  kUnknownFocalLength, &h70f::solve},
+    {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   1,   0, false, kUnknownFocalLength, &h70f::solve},
+    {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 1,   0, true,  kUnknownFocalLength, &h70f::solve},
     {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 1,  6, false, kKnownFocalLength,   &known_focal::p3p},
 };
 // clang-format on

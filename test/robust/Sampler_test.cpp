@@ -43,7 +43,7 @@ TEST(RandomStream, StreamsOfDifferentSeedsOrNumbersDiffer) {
 
 TEST(Sampler, DrawsDifferentCorrespondences) {
   const Sampler sampler = makeSampler({3, 7, 1, 5}, 6);
-  for (const RayDraw rayDraw : {RayDraw::Uniform, RayDraw::OneCamera, RayDraw::Spread})
+  for (const RayDraw rayDraw : {RayDraw::Uniform, RayDraw::OneCamera, RayDraw::AllButOne, RayDraw::Spread})
     for (int i = 0; i < 500; ++i) {
       RandomStream random(1, static_cast<std::uint64_t>(i));
       const DrawnSample sample = sampler.draw({5, 4, rayDraw}, 1, random);
@@ -73,6 +73,28 @@ TEST(Sampler, OneCameraDrawTakesAllRaysFromOneCameraThatHasEnough) {
   }
   EXPECT_EQ(times.size(), 2u);
   EXPECT_NEAR(times[10], count * 10 / 15., 4 * std::sqrt(count * 2 / 9.));
+}
+
+// In proportion to the numbers of rays: the first camera's is 6 of 18, the others have too few for six; the last ray is any other.
+TEST(Sampler, AllButOneDrawTakesTheLastRayFromAnotherCamera) {
+  const std::vector<int> raysOfCamera = {5, 12, 6, 1};
+  const Sampler sampler = makeSampler(raysOfCamera, 1);
+  const std::vector<int> list = cameras(raysOfCamera);
+  std::map<int, int> times, last;
+  const int count = 18000;
+  for (int i = 0; i < count; ++i) {
+    RandomStream random(2, static_cast<std::uint64_t>(i));
+    const DrawnSample sample = sampler.draw({7, 0, RayDraw::AllButOne}, 1, random);
+    const auto perCamera = raysPerCamera(list, sample, 6);
+    ASSERT_EQ(perCamera.size(), 1u);
+    ASSERT_NE(list[static_cast<std::size_t>(sample.rays[6])], perCamera.begin()->first);
+    EXPECT_EQ(10 * sampler.cameraOf(sample.rays[0]), perCamera.begin()->first);
+    ++times[perCamera.begin()->first];
+    if (perCamera.begin()->first == 10) ++last[sample.rays[6]];
+  }
+  EXPECT_NEAR(times[10], count * 12 / 18., 4 * std::sqrt(count * 2 / 9.));
+  EXPECT_EQ(last.size(), 12u);
+  for (const auto& entry : last) EXPECT_NEAR(entry.second, count * 12 / 18. / 12, 4 * std::sqrt(count / 18.)) << entry.first;
 }
 
 TEST(Sampler, SpreadDrawUsesAsManyCamerasAsPossible) {
@@ -129,6 +151,9 @@ TEST(Sampler, NeedsEnoughData) {
   EXPECT_TRUE(sampler.canDraw({5, 3, RayDraw::Spread}));
   EXPECT_FALSE(sampler.canDraw({5, 3, RayDraw::OneCamera}));
   EXPECT_FALSE(sampler.canDraw({9, 3, RayDraw::Uniform}));
+  EXPECT_TRUE(makeSampler({6, 1}, 0).canDraw({7, 0, RayDraw::AllButOne}));
+  EXPECT_FALSE(makeSampler({5, 5}, 0).canDraw({7, 0, RayDraw::AllButOne}));
+  EXPECT_FALSE(makeSampler({7}, 0).canDraw({7, 0, RayDraw::AllButOne}));
   EXPECT_FALSE(sampler.canDraw({0, 4, RayDraw::Uniform}));
 }
 
@@ -158,7 +183,9 @@ TEST(Sampler, AllInlierProbabilityIsTheFrequencyOfSuchSamples) {
                                    {3, 2, RayDraw::Uniform},
                                    {5, 1, RayDraw::OneCamera},
                                    {5, 1, RayDraw::Spread},
+                                   {4, 1, RayDraw::AllButOne},
                                    {5, 1, RayDraw::Uniform}}) {
+      if (!sampler.canDraw(size)) continue;
       const int count = 20000;
       int good = 0;
       for (int i = 0; i < count; ++i) {
@@ -174,6 +201,16 @@ TEST(Sampler, AllInlierProbabilityIsTheFrequencyOfSuchSamples) {
           << size.rays << " rays " << size.points << " points, draw " << static_cast<int>(size.rayDraw);
     }
   }
+}
+
+TEST(Sampler, SeveralLastRaysMakeASampleGoodIfOneOfThemIs) {
+  const Sampler sampler = makeSampler({8, 4}, 0);
+  InlierCounts inliers;
+  inliers.raysPerCamera = {7, 1};
+  inliers.rays = 8;
+  const double six = hypergeometricAll(8, 7, 6);
+  EXPECT_DOUBLE_EQ(sampler.allInlierProbability({7, 0, RayDraw::AllButOne, 1}, inliers), six / 4);
+  EXPECT_DOUBLE_EQ(sampler.allInlierProbability({7, 0, RayDraw::AllButOne, 2}, inliers), six * 7 / 16);
 }
 
 TEST(Sampler, GrowingPoolsStartWithTheFirstAndReachAll) {

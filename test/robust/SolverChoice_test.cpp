@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <string>
 
 namespace hybridgv {
 namespace {
@@ -101,7 +103,9 @@ TEST(SolverChoice, StoppingAtTheMissProbabilityMissesAsOftenAsItSays) {
 }
 
 TEST(SolverChoice, StrategiesWithoutEnoughDataAreLeftOut) {
-  const std::vector<sac::SolverPrior> all = {{Solver::P4Pf, 1}, {Solver::H13f, 2}, {Solver::H51f, 1}};
+  const std::vector<sac::SolverPrior> all = {{Solver::P4Pf, 1}, {Solver::H13f, 2}, {Solver::H51f, 1}, {Solver::H70f, 1}};
+  const std::map<RayDraw, std::string> marks = {
+      {RayDraw::Uniform, " "}, {RayDraw::OneCamera, "[5] "}, {RayDraw::AllButOne, "[6+1] "}, {RayDraw::Spread, "* "}};
   const auto names = [&](int cameras, int raysPerCamera, int points) {
     std::vector<int> cameraOfRay, rays(static_cast<std::size_t>(cameras * raysPerCamera)), list(static_cast<std::size_t>(points));
     for (int i = 0; i < cameras * raysPerCamera; ++i) cameraOfRay.push_back(i % cameras);
@@ -109,16 +113,15 @@ TEST(SolverChoice, StrategiesWithoutEnoughDataAreLeftOut) {
     std::iota(list.begin(), list.end(), 0);
     std::string result;
     for (const Strategy& strategy : makeStrategies(all, Sampler(cameraOfRay, rays, list, false)))
-      result += std::string(strategy.solver.name) + (strategy.solver.draw == RayDraw::OneCamera ? "[5] "
-                                                     : strategy.solver.draw == RayDraw::Spread  ? "* "
-                                                                                                : " ");
+      result += strategy.solver.name + marks.at(strategy.solver.draw);
     return result;
   };
-  EXPECT_EQ(names(5, 10, 10), "p4pf h13f h51f[5] h51f* ");
+  EXPECT_EQ(names(5, 10, 10), "p4pf h13f h51f[5] h51f* h70f[6+1] h70f* ");
   EXPECT_EQ(names(1, 10, 10), "p4pf h13f h51f[5] ");
-  EXPECT_EQ(names(5, 2, 3), "h13f h51f* ");
+  EXPECT_EQ(names(5, 2, 3), "h13f h51f* h70f* ");
   EXPECT_EQ(names(1, 0, 4), "p4pf ");
-  EXPECT_EQ(names(5, 10, 0), "");
+  EXPECT_EQ(names(5, 10, 0), "h70f[6+1] h70f* ");
+  EXPECT_EQ(names(5, 1, 0), "");
 }
 
 }  // namespace

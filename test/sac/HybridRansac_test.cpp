@@ -188,13 +188,54 @@ TEST(HybridRansac, AllOutliersGiveNoSuccess) {
 
 TEST(HybridRansac, NoRays) { EXPECT_EQ(countRight(noisy(0, 80, 0.3), thresholds(), 10, 76), 10); }
 
-TEST(HybridRansac, NoPointsIsTooFew) {
+TEST(HybridRansac, SixRaysAreTooFew) {
   test::Random random(test::testSeed(), 77);
-  const HybridScene scene = test::makeHybridScene(random, noisy(80, 0, 0));
+  const HybridScene scene = test::makeHybridScene(random, noisy(6, 0, 0));
   const HybridRansacResult result = hybridRansac(scene.adapter());
   EXPECT_EQ(result.failureReason, FailureReason::TooFewCorrespondences);
   EXPECT_EQ(result.iterations, 0);
-  EXPECT_EQ(result.inliers2d2d.size(), 80u);
+  EXPECT_EQ(result.inliers2d2d.size(), 6u);
+}
+
+TEST(HybridRansac, RaysAloneFixThePose) {
+  for (const double outliers : {0.0, 0.3, 0.5})
+    EXPECT_GE(countRight(noisy(200, 0, outliers), thresholds(), 10, 84), 9) << outliers;
+}
+
+TEST(HybridRansac, RaysAloneOfManyCamerasWithFewEach) {
+  SceneOptions scene = noisy(200, 0, 0.1);
+  scene.cameras = 50;
+  EXPECT_GE(countRight(scene, thresholds(), 4, 85), 4);
+}
+
+TEST(HybridRansac, RaysAloneOfAFacade) {
+  SceneOptions scene = noisy(200, 0, 0.2);
+  scene.coplanar = true;
+  EXPECT_GE(countRight(scene, thresholds(), 6, 86), 5);
+}
+
+TEST(HybridRansac, FewBadPointsDoNotSpoilManyRays) {
+  SceneOptions scene = noisy(200, 8, 0.3);
+  scene.outlierSharePoints = 1;
+  EXPECT_GE(countRight(scene, thresholds(), 6, 87), 5);
+}
+
+TEST(HybridRansac, WrongRaysAloneGiveNoSuccess) {
+  HybridRansacOptions options = thresholds();
+  options.maxIterations = 1000;
+  for (const int rays : {10, 60, 400}) EXPECT_EQ(countRight(noisy(rays, 0, 1), options, 8, 88), 0) << rays;
+}
+
+// The distance from that camera is open.
+TEST(HybridRansac, RaysOfOneCameraAloneHaveNoScale) {
+  test::Random random(test::testSeed(), 89);
+  SceneOptions options = noisy(80, 0, 0.2);
+  options.cameras = 1;
+  const HybridScene scene = test::makeHybridScene(random, options);
+  const HybridRansacResult result = hybridRansac(scene.adapter());
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(result.failureReason, FailureReason::UndeterminedPose);
+  EXPECT_EQ(result.iterations, 0);
 }
 
 TEST(HybridRansac, ThreePointsAndManyRays) {

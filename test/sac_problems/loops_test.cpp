@@ -97,18 +97,19 @@ TEST_P(SacLoops, SameSeedGivesTheSameResult) {
   EXPECT_NE(first.model.position, other.model.position);
 }
 
-// No rig camera has five rays: the samples of H51f come from several.
-TEST(SacLoopsWithManyCameras, H51fFindsThePose) {
+// No rig camera has five rays: the samples come from several.
+TEST(SacLoopsWithManyCameras, SolversThatFollowPathsFindThePose) {
   test::Random random(test::testSeed());
   test::MinimalProblem problem = test::makeMinimalProblem(random, std::vector<int>(12, 4), 20);
   test::addNoise(random, 0.1, problem);
   test::addOutliers(random, 6, problem);
-  for (const NamedLoop& loop : {kLoops[0], kLoops[2]}) {
-    const Result result = loop.run(test::makeAdapter(problem), Solver::H51f, problem.truth.focalLength, 1);
-    ASSERT_TRUE(result.success) << loop.name;
-    EXPECT_GE(result.inliers, 52u) << loop.name;
-    EXPECT_TRUE(test::isFocalPoseNear(result.refined, problem.truth, 0.01)) << loop.name;
-  }
+  for (const NamedLoop& loop : {kLoops[0], kLoops[2]})
+    for (const Solver solver : {Solver::H51f, Solver::H70f}) {
+      const Result result = loop.run(test::makeAdapter(problem), solver, problem.truth.focalLength, 1);
+      ASSERT_TRUE(result.success) << loop.name;
+      EXPECT_GE(result.inliers, 52u) << loop.name;
+      EXPECT_TRUE(test::isFocalPoseNear(result.refined, problem.truth, 0.01)) << loop.name;
+    }
 }
 
 // Hard data, not a wrong call: no model, no exception, an end after 10 max_iterations_ samples.

@@ -83,7 +83,7 @@ TEST(MinimalProblems, UnknownNamesAreRefused) {
 
 TEST(MinimalProblems, RansacDrawsThoseWithAPriorByDefault) {
   const std::vector<sac::SolverPrior> solvers = sac::HybridRansacOptions().solvers;
-  ASSERT_EQ(solvers.size(), allSolvers().size() - 1);  // without h70f
+  ASSERT_EQ(solvers.size(), allSolvers().size());
   for (const sac::SolverPrior& entry : solvers)
     EXPECT_EQ(entry.prior, rowsOf(entry.solver).begin()->prior) << toString(entry.solver);
 }

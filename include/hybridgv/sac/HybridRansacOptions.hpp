@@ -116,7 +116,7 @@ enum class FailureReason {
   TooFewCorrespondences,  ///< no enabled solver has enough data
   NoModel,                ///< no sample gave a pose with inliers
   InliersMayBeChance,     ///< wrong poses of random data have as many inliers
-  UndeterminedPose,       ///< the inliers do not fix all seven parameters
+  UndeterminedPose,       ///< the inliers do not fix all seven parameters; without points, rays of one rig camera never do
 };
 
 /// What ended the search.

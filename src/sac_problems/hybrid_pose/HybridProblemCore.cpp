@@ -142,10 +142,13 @@ struct HybridProblemCore::Data {
     return true;
   }
 
+  // How the rays are drawn for the solver's faster way; the first row's.
+  solvers::RayDraw fasterDraw() const { return problem.begin()->draw; }
+
   // What to draw: from any cameras where none has enough rays.
   robust::SampleSize sampleSize(const Sampler& sampler, bool raysFromOneCamera) const {
-    const robust::SampleSize ofOneCamera{problem.rays(), problem.points(), solvers::RayDraw::OneCamera};
-    if (raysFromOneCamera && sampler.canDraw(ofOneCamera)) return ofOneCamera;
+    const robust::SampleSize faster{problem.rays(), problem.points(), fasterDraw()};
+    if (raysFromOneCamera && sampler.canDraw(faster)) return faster;
     return {problem.rays(), problem.points(), solvers::RayDraw::Uniform};
   }
 
@@ -238,10 +241,7 @@ HybridProblemCore::HybridProblemCore(const hybridgv::hybrid_pose::HybridAdapterB
 std::array<int, 2> HybridProblemCore::size() const { return {data_->count2d2d(), data_->count2d3d()}; }
 std::array<int, 2> HybridProblemCore::sampleSize() const { return {data_->problem.rays(), data_->problem.points()}; }
 
-bool HybridProblemCore::drawsRaysFromOneCamera() const {
-  const auto isOfOneCamera = [](const solvers::MinimalSolver& solver) { return solver.draw == solvers::RayDraw::OneCamera; };
-  return std::any_of(data_->problem.begin(), data_->problem.end(), isOfOneCamera);
-}
+bool HybridProblemCore::drawsRaysFromOneCamera() const { return data_->fasterDraw() != solvers::RayDraw::Uniform; }
 
 MultiIndices HybridProblemCore::split(const std::vector<int>& flat) const {
   checkRanges("indices", flat, data_->count());

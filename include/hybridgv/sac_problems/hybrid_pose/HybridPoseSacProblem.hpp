@@ -40,7 +40,8 @@ namespace hybrid_pose {
 ///   loop's own count is one more. In exchange the right solution is kept practically always, where one extra correspondence
 ///   keeps it in 82 to 95 % of the cases (50 to 20 % outliers, 1 px noise) and would enlarge the sample in the loop's stopping
 ///   rule.
-/// * **H51f** draws its five rays from one rig camera where one has five (see setRaysFromOneCamera).
+/// * **H51f** draws its five rays from one rig camera where one has five, **H70f** six of its seven where one has six (see
+///   setRaysFromOneCamera).
 /// * **Seed**: the same seed gives the same samples on every platform, and the same result on the same machine. All random
 ///   numbers come from OpenGV's rnd(), which this class sets up.
 /// * **Data**: the adapter is only read, once, in the constructor, and may be destroyed afterwards. Several problems may share
@@ -83,9 +84,9 @@ class HybridPoseSacProblem : public opengv::sac::SampleConsensusProblem<FocalPos
     preparePool();
   }
 
-  /// Whether the 2D-2D correspondences of a sample come from one rig camera (the default for H51f, where it is about a hundred
-  /// times faster: 9 instead of 56 solutions) or from any (the default for the others). Where no rig camera has enough, they
-  /// come from any in either case.
+  /// Whether the 2D-2D correspondences of a sample come from one rig camera, or for H70f all but one (the default for these two,
+  /// where it is about a hundred times faster: 9 instead of 56 and 118 solutions) or from any (the default for the others). Where no
+  /// rig camera has enough, they come from any in either case.
   void setRaysFromOneCamera(bool oneCamera) { raysFromOneCamera_ = oneCamera; }
 
   /// The size of a sample: m + n.
