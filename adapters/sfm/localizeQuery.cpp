@@ -15,21 +15,12 @@ namespace sfm {
 namespace {
 
 void checkOptions(const QueryOptions& options) {
-  checkNotNegative("options.priorDeviation", options.priorDeviation);
+  checkPositive("options.priorDeviation", options.priorDeviation);
   if (options.minInliers < 0)
     throwInvalid("options.minInliers", "must not be negative, is " + std::to_string(options.minInliers));
   if (!(options.minInlierShare >= 0 && options.minInlierShare <= 1))
     throwInvalid("options.minInlierShare", "must be in 0 .. 1, is " + detail::format(options.minInlierShare));
 }
-
-// The options with the focal length between the two.
-sac::HybridRansacOptions within(sac::HybridRansacOptions options, double smallest, double largest) {
-  options.minFocalLength = std::max(options.minFocalLength, smallest);
-  options.maxFocalLength = std::min(options.maxFocalLength, largest);
-  return options;
-}
-
-bool isRangeEmpty(const sac::HybridRansacOptions& options) { return !(options.minFocalLength < options.maxFocalLength); }
 
 double relativeDeviation(const sac::HybridRansacResult& result) {
   return result.success ? result.focalLengthStandardDeviation / result.pose.focalLength : std::numeric_limits<double>::infinity();
@@ -50,30 +41,27 @@ sac::HybridRansacResult searchWell(const LocalizationProblem& problem, sac::Hybr
   return best;
 }
 
-sac::HybridRansacResult searchNear(const LocalizationProblem& problem, double f, double factor, const QueryOptions& options) {
-  const sac::HybridRansacOptions narrow = within(options.ransac, f / factor, f * factor);
-  return isRangeEmpty(narrow) ? sac::HybridRansacResult() : searchWell(problem, narrow);
-}
-
-// With what is known of the camera in general.
-QueryOptions forCamera(QueryOptions options, const QueryImage& query) {
-  const bool isUnknown = query.knowledge != CameraKnowledge::Known && options.estimateDistortion;
-  options.ransac.queryCamera = isUnknown ? sac::QueryCamera::Radial : sac::QueryCamera::Pinhole;
-  if (isUnknown && options.ransac.imageRadiusPx == 0)
-    options.ransac.imageRadiusPx =
-        std::hypot(static_cast<double>(query.camera.width), static_cast<double>(query.camera.height)) / 2;
-  return options;
-}
-
-sac::HybridRansacResult search(const LocalizationProblem& problem, const QueryImage& query, const QueryOptions& options) {
-  constexpr double kKnown = 1 + 1e-3;
-  if (query.knowledge == CameraKnowledge::Known) return searchNear(problem, focalLength(query.camera), kKnown, options);
-  if (query.knowledge == CameraKnowledge::Prior && !query.camera.parameters.empty()) {
-    const double factor = 1 + 3 * options.priorDeviation;
-    const sac::HybridRansacResult result = searchNear(problem, focalLength(query.camera), factor, options);
-    if (result.success) return result;
+// What is known of the query's camera.
+sac::HybridRansacOptions searchOptions(const QueryImage& query, const QueryOptions& options) {
+  sac::HybridRansacOptions search = options.ransac;
+  search.knownFocalLengthPx.reset();
+  search.focalLengthPriorPx.reset();
+  search.queryCamera = sac::QueryCamera::Pinhole;
+  if (query.knowledge == CameraKnowledge::Known) {
+    search.knownFocalLengthPx = focalLength(query.camera);
+    search.minFocalLength = 0;
+    search.maxFocalLength = std::numeric_limits<double>::infinity();
+    return search;
   }
-  return searchWell(problem, options.ransac);
+  if (query.knowledge == CameraKnowledge::Prior && !query.camera.parameters.empty()) {
+    search.focalLengthPriorPx = focalLength(query.camera);
+    search.focalLengthPriorLogDeviation = options.priorDeviation;
+  }
+  if (!options.estimateDistortion) return search;
+  search.queryCamera = sac::QueryCamera::Radial;
+  if (search.imageRadiusPx == 0)
+    search.imageRadiusPx = std::hypot(static_cast<double>(query.camera.width), static_cast<double>(query.camera.height)) / 2;
+  return search;
 }
 
 // Empty for a success.
@@ -133,7 +121,7 @@ QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query,
   QueryLocalization localization{false, {}, makeLocalizationProblem(map, query, options.matches), {}, query.camera, 0, 0,
                                  false, {}};
   const LocalizationProblem& problem = localization.problem;
-  localization.result = search(problem, query, forCamera(options, query));
+  localization.result = searchWell(problem, searchOptions(query, options));
   localization.reason = reasonOf(query, problem, localization.result, options);
   localization.success = localization.reason.empty();
   const sac::HybridRansacResult& result = localization.result;
@@ -176,6 +164,15 @@ void checkSameCamera(const std::vector<QueryImage>& queries) {
   }
 }
 
+// Does an image know better than the others? (With a wrong focal length it would still find a pose, of a wrong distance.)
+bool contradict(const QueryLocalization& alone, const CameraEstimate& common) {
+  constexpr double kSmallestDeviation = 0.01;
+  if (!alone.success) return false;
+  const CameraEstimate own = estimateOf(alone);
+  const double deviation = std::max(own.deviation, kSmallestDeviation * own.focalLength);
+  return std::abs(own.focalLength - common.focalLength) > kMostDeviations * deviation;
+}
+
 // With the common camera; no success if it does not fit.
 QueryLocalization localizeKnown(const SparseModel& map, const QueryImage& query, const CameraEstimate& common,
                                 const QueryOptions& options) {
@@ -214,9 +211,10 @@ std::optional<CameraEstimate> agree(const std::vector<CameraEstimate>& estimates
 
 QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query, const CameraEstimate& common,
                                 const QueryOptions& options) {
-  if (query.knowledge == CameraKnowledge::Known) return localizeQuery(map, query, options);
-  QueryLocalization localization = localizeKnown(map, query, common, options);
-  return localization.success ? localization : localizeQuery(map, query, options);
+  QueryLocalization alone = localizeQuery(map, query, options);
+  if (query.knowledge == CameraKnowledge::Known || contradict(alone, common)) return alone;
+  QueryLocalization known = localizeKnown(map, query, common, options);
+  return known.success ? known : alone;
 }
 
 std::vector<QueryLocalization> localizeQueries(const SparseModel& map, const std::vector<QueryImage>& queries,
@@ -232,6 +230,7 @@ std::vector<QueryLocalization> localizeQueries(const SparseModel& map, const std
   const std::optional<CameraEstimate> common = agree(estimates);
   if (!common) return localizations;
   for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (contradict(localizations[i], *common)) continue;
     QueryLocalization known = localizeKnown(map, queries[i], *common, options);
     if (known.success) localizations[i] = std::move(known);
   }

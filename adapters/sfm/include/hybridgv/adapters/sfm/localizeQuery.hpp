@@ -19,11 +19,10 @@ namespace sfm {
 /// How query images are localized.
 struct QueryOptions {
   LocalizationProblemOptions matches;  ///< how matches become correspondences
-  /// The search. What is known of a camera is set for every query (queryCamera, imageRadiusPx); of the focal length's bounds the
-  /// narrower ones count.
+  /// The search. What is known of a camera is set for every query: knownFocalLengthPx, focalLengthPriorPx with its deviation,
+  /// queryCamera, and imageRadiusPx unless it is given.
   sac::HybridRansacOptions ransac;
-  /// How far a prior focal length may be wrong, as a share of it: three times that on either side is searched first, everything if
-  /// that fails. (EXIF is often wrong by several percent.)
+  /// The standard deviation of a prior focal length, as a share of it. (EXIF is often wrong by several percent.)
   double priorDeviation = 0.15;
   bool estimateDistortion = true;  ///< of cameras that are not known; it is kept only if the data speak for it
   int minInliers = 12;             ///< a success has so many inliers of both kinds together
@@ -55,8 +54,8 @@ struct QueryLocalization {
 /// Localizes one query image.
 ///
 /// * Unknown camera: focal length and distortion are found with the pose.
-/// * Prior focal length: the same, searched near to it first.
-/// * Known camera: only the pose is found; `camera` is returned as given.
+/// * Prior focal length: the same; where the matches leave it open, a value near to the prior is taken.
+/// * Known camera: only the pose is found, six parameters; `camera` is returned as given.
 ///
 /// \throws std::invalid_argument as makeLocalizationProblem() and hybridRansac(), and for options that make no sense
 HYBRIDGV_EXPORT QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query,
@@ -77,8 +76,8 @@ HYBRIDGV_EXPORT CameraEstimate estimateOf(const QueryLocalization& localization)
 /// \return empty if there are no estimates
 HYBRIDGV_EXPORT std::optional<CameraEstimate> agree(const std::vector<CameraEstimate>& estimates);
 
-/// Localizes one of several images of a camera, of which they have agreed on an estimate. If it does not fit, the image is localized as
-/// if it were alone.
+/// Localizes one of several images of a camera, of which they have agreed on an estimate. If the image knows better (by five
+/// deviations, of at least 1 %), or if that camera does not fit, it is localized as if it were alone.
 HYBRIDGV_EXPORT QueryLocalization localizeQuery(const SparseModel& map, const QueryImage& query, const CameraEstimate& common,
                                                 const QueryOptions& options = {});
 
