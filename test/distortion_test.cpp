@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "Random.hpp"
@@ -46,6 +47,19 @@ TEST(Distortion, WhatCannotBeSeenHasNoImagePoint) {
   EXPECT_FALSE(distort(1e-6, {1, 0, 0}).has_value());
   EXPECT_TRUE(distort(1e-6, {499, 0, 1}).has_value());
   EXPECT_EQ(undistort(-1e-6, {1000, 0, 1}), Vector3d(1000, 0, 0));
+}
+
+TEST(Distortion, WhatIsNotFiniteHasNoImagePointAndIsNoLens) {
+  for (const double wrong : {NAN, INFINITY, -INFINITY}) {
+    EXPECT_EQ(undistort(wrong, {3, 4, 1}), Vector3d::Zero());
+    EXPECT_EQ(undistort(1e-7, {wrong, 4, 1}), Vector3d::Zero());
+    EXPECT_FALSE(distort(wrong, {3, 4, 1}).has_value());
+    EXPECT_THROW(toSimpleRadial(wrong, -1e-7, {1, 2}), std::invalid_argument);
+    EXPECT_THROW(toSimpleRadial(800, wrong, {1, 2}), std::invalid_argument);
+    EXPECT_EQ(toSimpleRadial(800, -1e-7, {100, 200, wrong}).k1, 0);
+  }
+  EXPECT_EQ(undistort(1e-7, {3, 4, 0}), Vector3d::Zero());
+  EXPECT_THROW(toSimpleRadial(0, -1e-7, {1, 2}), std::invalid_argument);
 }
 
 TEST(SimpleRadialModel, IsThatOfTheLensWhereTheImagePointsAre) {

@@ -16,8 +16,8 @@ namespace hybridgv {
 ///
 /// \param distortion  [1/px^2]; negative: barrel distortion. 0 is a pinhole image.
 /// \param imagePoint  (u, v, 1), or any multiple of it, relative to the principal point [px]; pixels must be square
-/// \return (u', v', 1); (u, v, 0) where 1 + distortion (u^2 + v^2) is not positive, which no viewing direction belongs to. The
-///         inverse of distort where distortion (u^2 + v^2) < 1: strong pincushion distortion sees a direction twice.
+/// \return (u', v', 1); (u, v, 0) where 1 + distortion (u^2 + v^2) is not positive, which no viewing direction belongs to; (0, 0, 0)
+///         if anything is not finite. The inverse of distort where distortion (u^2 + v^2) < 1: strong pincushion distortion sees a direction twice.
 HYBRIDGV_EXPORT Eigen::Vector3d undistort(double distortion, const Eigen::Vector3d& imagePoint);
 
 /// The inverse of undistort: where a camera with radial distortion sees what a pinhole camera sees at an image point,
@@ -44,8 +44,9 @@ struct SimpleRadial {
 /// \param focalLength  of the division model [px]
 /// \param distortion   of the division model [1/px^2]
 /// \param radii        r, distances of image points from the principal point [px]. The model is best where they are.
-/// \return (focalLength, 0) if there is no distortion or the radii do not determine k1: fewer than two different ones, or one with
-///         1 + distortion r^2 <= 0
+/// \return (focalLength, 0) if there is no distortion or the radii do not determine k1: fewer than two different ones, one with
+///         1 + distortion r^2 <= 0, one that is not finite
+/// \throws std::invalid_argument for a focal length that is not positive and finite, a distortion that is not finite
 HYBRIDGV_EXPORT SimpleRadial toSimpleRadial(double focalLength, double distortion, const std::vector<double>& radii);
 
 }  // namespace hybridgv

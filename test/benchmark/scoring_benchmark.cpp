@@ -50,8 +50,11 @@ void run(benchmark::State& state, Call call) {
 }
 
 void add(const char* name, math::SimdLevel level, void (*function)(benchmark::State&, const robust::Kernels&)) {
-  const std::string title = std::string(name) + "/" + math::toString(level);
-  benchmark::RegisterBenchmark(title.c_str(), function, robust::kernels(level))->Arg(200)->Arg(1000);
+  for (const auto model : {robust::CameraModel::Pinhole, robust::CameraModel::Radial}) {
+    const char* const camera = model == robust::CameraModel::Pinhole ? "pinhole" : "radial";
+    const std::string title = std::string(name) + "/" + camera + "/" + math::toString(level);
+    benchmark::RegisterBenchmark(title.c_str(), function, robust::kernels(level, model))->Arg(200)->Arg(1000);
+  }
 }
 
 void scorePoints(benchmark::State& state, const robust::Kernels& kernels) {

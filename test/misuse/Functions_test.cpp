@@ -198,6 +198,9 @@ TEST(Misuse, ResidualsOfNumbersThatAreNotFiniteAreInfinite) {
       }
     }
     sampson(query, image, bearing, map.position, map.rotation, value);
+    EXPECT_EQ(hybrid_pose::reprojectionError(query, value, image, point), kInfinite);
+    EXPECT_EQ(hybrid_pose::sampsonError(query, value, image, bearing, map.position, map.rotation, 1000), kInfinite);
+    expectRefused("distortion", "initialDistortion", [&] { hybrid_pose::optimize_nonlinear(goodAdapter(), FocalPose(), value); });
   }
   for (const WrongPose& wrong : wrongPoses()) {
     FocalPose pose = query;  // the wrong number in an otherwise good pose
