@@ -207,6 +207,24 @@ TEST(UnknownDistortion, HardlyDependsOnTheImagesRadius) {
   }
 }
 
+TEST(UnknownDistortion, IsFoundWithAKnownFocalLength) {
+  Random random(testSeed(), 9612);
+  const double distortion = -0.15 / (2 * kWideHalfSize * kWideHalfSize);
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const HybridScene scene = makeWideScene(random, wide(divisionLens(distortion)));
+    HybridRansacOptions options = radial(i);
+    options.knownFocalLengthPx = scene.truth.focalLength;
+    const HybridRansacResult result = sac::hybridRansac(adapterOf(scene), options);
+    EXPECT_TRUE(result.success);
+    EXPECT_EQ(result.pose.focalLength, scene.truth.focalLength);
+    EXPECT_EQ(result.focalLengthStandardDeviation, 0);
+    EXPECT_NEAR(result.distortion, distortion, 6 * result.distortionStandardDeviation);
+    EXPECT_GT(result.simpleRadialK1StandardDeviation, 0);
+    EXPECT_LT(result.simpleRadialK1StandardDeviation, 0.05 * std::abs(result.simpleRadialK1));
+    EXPECT_LT((result.pose.rotation - scene.truth.rotation).norm(), 0.01);
+  }
+}
+
 TEST(UnknownDistortion, AStrayImagePointDoesNoHarm) {
   Random random(testSeed(), 9608);
   HybridScene scene = makeWideScene(random, wide(simpleRadialLens(-0.15)));
