@@ -71,6 +71,11 @@ inline void simplifyNames(sfm::SparseModel& model) {
   for (std::size_t i = 0; i < model.images.size(); ++i) model.images[i].name = "image " + std::to_string(i);
 }
 
+// Those whose camera has a model of tomorrow are not in the files of another format.
+inline std::ptrdiff_t countRegistered(const sfm::SparseModel& model) {
+  return std::count_if(model.images.begin(), model.images.end(), [](const sfm::Image& image) { return image.registered; });
+}
+
 inline bool canBeWritten(const sfm::SparseModel& model) {
   for (const sfm::Camera& camera : model.cameras)
     if (camera.model == sfm::CameraModel::NvmRadial && camera.parameters.back() != 0) return false;
@@ -93,7 +98,7 @@ inline void useModel(sfm::SparseModel model) {
   sfm::writeColmapBinary(copy, text);
   const sfm::SparseModel binary = sfm::readColmapBinary(copy, kUnchecked);
   if (text.points.size() != model.points.size() || binary.points.size() != model.points.size() ||
-      binary.images.size() != text.images.size())
+      countRegistered(binary) != countRegistered(text))
     reportFault("what is written is read again");
 }
 

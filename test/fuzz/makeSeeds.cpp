@@ -1,6 +1,7 @@
 // Writes the first inputs of all fuzzers: make_seeds FOLDER. For the solvers valid samples (their problems solved exactly, see
 // MinimalProblem.hpp), for the readers small valid files.
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "MinimalProblem.hpp"
 #include "SampleBytes.hpp"
+#include "SfmScene.hpp"
 #include "SolverConfigurations.hpp"
 #include "TemporaryFolder.hpp"
 #include "hybridgv/adapters/sfm/LocalizationProblem.hpp"
@@ -83,6 +85,35 @@ std::vector<std::vector<int>> raysPerCamera(const solvers::SolverRows& problem) 
   return result;
 }
 
+template <class Values>
+std::string bytesOf(const Values& values) {
+  std::string bytes(values.size() * sizeof values[0], '\0');
+  std::memcpy(&bytes[0], values.data(), bytes.size());
+  return bytes;
+}
+
+void writeCameras(const std::filesystem::path& folder) {
+  for (const sfm::CameraModel model : test::colmapModels()) {
+    std::vector<double> values{700, 300};  // a pixel
+    const sfm::Camera camera = test::makeCamera(model);
+    values.insert(values.end(), camera.parameters.begin(), camera.parameters.end());
+    write(folder / "camera" / toString(model), std::string(1, static_cast<char>(model)) + bytesOf(values));
+  }
+}
+
+// Two keypoints of six columns, three matches: a byte that is not used, rows, columns, the blob.
+void writeBlobs(const std::filesystem::path& folder) {
+  const auto header = [](char rows, char columns) {
+    std::string bytes(17, '\1');
+    bytes[2] = rows;
+    bytes[10] = columns;
+    return bytes;
+  };
+  write(folder / "database" / "keypoints", header(2, 6) + bytesOf(std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+  write(folder / "database" / "matches", header(3, 2) + bytesOf(std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6}));
+  write(folder / "database" / "numbers", header(1, 8) + bytesOf(std::vector<double>{1000, 500, 400, 0.1}));
+}
+
 void writeModels(const std::filesystem::path& folder) {
   const test::TemporaryFolder files;
   files.write("cameras.txt", kCameras), files.write("images.txt", kImages), files.write("points3D.txt", kPoints);
@@ -120,4 +151,6 @@ int main(int argc, char** argv) {
     writeSamples(folder / problem.name(), raysPerCamera(problem), problem.points());
   writeSamples(folder / "hybrid_ransac", {{2, 2, 2}, {6}}, 8);
   writeModels(folder);
+  writeCameras(folder);
+  writeBlobs(folder);
 }

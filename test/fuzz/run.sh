@@ -15,7 +15,7 @@ sh .ci/install_packages.sh build clang
 cmake --build build/fuzz --target fuzzers >&2
 build/fuzz/test/fuzz/make_seeds build/fuzz/seeds
 solvers=$(build/fuzz/test/fuzz/solver_fuzzer --list)
-[ $# -gt 0 ] || set -- $solvers hybrid_ransac colmap_text colmap_binary bundler nvm problem
+[ $# -gt 0 ] || set -- $solvers hybrid_ransac colmap_text colmap_binary bundler nvm problem camera database
 
 status=0
 mkdir -p build/fuzz/rows
