@@ -1,6 +1,7 @@
 #!/bin/sh
 # usage: image_registrator.sh PROGRAM MAKE_DATABASE   hybridgv image_registrator on a database and a map without images
 program=$1
+tests=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d) && trap 'rm -rf "$scratch"' EXIT
 fail() { echo "FAILED: $1"; exit 1; }
 "$2" "$scratch" 8 || fail "the database"
@@ -14,6 +15,14 @@ grep -q 'registered 8 of 8 images' summary || fail "the summary: $(cat summary)"
 awk 'length > 100 { print; bad = 1 } END { exit bad }' table || fail "the table is wider than 100 columns"
 [ "$(wc -l < poses.txt)" = 8 ] || fail "a pose for each image"
 [ "$(grep -c '"schema":"hybridgv/localization/1","query":"photo_[0-9]*.jpg","success":true' out.jsonl)" = 8 ] || fail "an object for each image"
+schema=$(cd "$tests/../src/doc" && pwd)/localization.schema.json
+if python3 -c 'import jsonschema' 2> /dev/null; then
+  python3 -c 'import json, jsonschema, sys
+schema = json.load(open(sys.argv[1]))
+for line in open(sys.argv[2]): jsonschema.validate(json.loads(line), schema)' "$schema" out.jsonl || fail "the objects are not what the schema says"
+else
+  echo "python3-jsonschema is missing: the JSON lines are not compared with their schema"
+fi
 # Focal lengths and poses are right.
 awk 'NR == FNR { f[$1] = $2; next } { e = 100 * ($2 / f[$1] - 1); if (e > 1 || e < -1) { print $1, $2, f[$1]; bad = 1 } } END { exit bad }' \
   truth.txt table || fail "a focal length is wrong by more than 1 %"

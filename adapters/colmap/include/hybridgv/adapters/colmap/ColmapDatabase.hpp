@@ -59,7 +59,9 @@ class HYBRIDGV_EXPORT ColmapDatabase {
   /// Opens the file, and reads its images and cameras.
   explicit ColmapDatabase(const std::string& path);
   ~ColmapDatabase();
+  /// The database moves; what it is taken from can only be destroyed or assigned to.
   ColmapDatabase(ColmapDatabase&&) noexcept;
+  /// Likewise.
   ColmapDatabase& operator=(ColmapDatabase&&) noexcept;
 
   /// As given to the constructor.

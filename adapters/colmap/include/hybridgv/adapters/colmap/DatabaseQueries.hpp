@@ -34,6 +34,7 @@ class HYBRIDGV_EXPORT DatabaseQueries {
   /// \param map  kept by reference
   DatabaseQueries(ColmapDatabase database, const SparseModel& map, const DatabaseQueryOptions& options = {});
   ~DatabaseQueries();
+  /// What it is taken from can only be destroyed.
   DatabaseQueries(DatabaseQueries&&) noexcept;
   DatabaseQueries& operator=(DatabaseQueries&&) = delete;
 
