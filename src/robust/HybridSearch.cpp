@@ -61,7 +61,9 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
                            Clock::time_point start)
     : options_(options),
       start_(start),
-      data_(readSearchData(adapter, options)),
+      all_(readSearchData(adapter, options)),
+      part_(partOf(all_, adapter, options)),
+      data_(part_ ? *part_ : all_),
       lens_(makeLens(data_.arrays, options)),
       estimated_{!options.knownFocalLengthPx, lens_.isUnknown},
       choice_(makeStrategies(options.solvers, data_.sampler, estimated_)),
@@ -71,8 +73,7 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
       significance_(scorer_, chance_, data_.sampler, estimated_.parameters(), options.seed),
-      optimizer_(scorer_, chance_, groupsOf(data_.arrays), options.minFocalLength, options.maxFocalLength, estimated_, lens_,
-                 makePrior(options)),
+      optimizer_(makeOptimizer(scorer_, chance_)),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()),
       ofThreePointsAtFirst_(findable()) {
@@ -81,6 +82,12 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
   const auto isStaged = [](const Strategy& strategy) { return strategy.isStaged(); };
   if (std::any_of(choice_.strategies().begin(), choice_.strategies().end(), isStaged)) staged_.emplace(data_);
   mostIterations_ = mostIterations();
+}
+
+// For the scorer's correspondences.
+LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance) const {
+  return {scorer,     chance, groupsOf(scorer.arrays()), options_.minFocalLength, options_.maxFocalLength,
+          estimated_, lens_,  makePrior(options_)};
 }
 
 // No more samples than there are. If even a pose with which all correspondences agree were chance, a few are enough.
@@ -359,10 +366,30 @@ FinalPose HybridSearch::finish(bool optimize) {
   }
   if (optimize && estimated_.radial) chooseLens();
   FinalPose result = optimizer_.polish(best_.pose, optimize);
+  if (part_ && optimize) result = fitToAll(result.pose);
   best_.pose = result.pose;
   scorer_.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   best_.evaluation = scorer_.evaluate(best_.pose);
+  if (part_) {
+    PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
+    scorer.setThresholds(scorer_.thresholds());
+    judgeAll(scorer);
+  } else {
+    judgeAll(scorer_);
+  }
   return result;
+}
+
+FinalPose HybridSearch::fitToAll(const QueryPose& pose) {
+  PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
+  scorer.setThresholds(scorer_.thresholds());
+  const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
+  return makeOptimizer(scorer, chance).polishNear(pose);
+}
+
+void HybridSearch::judgeAll(const PoseScorer& scorer) {
+  inliers_ = scorer.inliers(best_.pose);
+  score_ = scorer.evaluate(best_.pose).score;
 }
 
 sac::FailureReason HybridSearch::verdict(const FinalPose& final) {

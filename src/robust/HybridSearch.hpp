@@ -50,9 +50,11 @@ class HybridSearch {
 
   bool hasModel() const { return best_.evaluation.score > 0; }
   const Model& best() const { return best_; }
-  const PoseScorer& scorer() const { return scorer_; }
   const SolverChoice& choice() const { return choice_; }
-  const SearchData& data() const { return data_; }
+  const SearchData& data() const { return all_; }
+  // Of the best model, over all correspondences, after `finish`.
+  const PerKind<std::vector<char>>& inliers() const { return inliers_; }
+  double score() const { return score_; }
   Intrinsics estimated() const { return estimated_; }
   int iterations() const { return iterations_; }
   int localOptimizations() const { return localOptimizations_; }
@@ -79,6 +81,7 @@ class HybridSearch {
 
   void tryInitialPose();
   void tryBatch(int count);
+  LocalOptimizer makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance) const;
   int mostIterations() const;
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
@@ -106,11 +109,17 @@ class HybridSearch {
   bool isDone();
   bool isOutOfTime() const;
   bool isDetermined(const FinalPose& final) const;
+  // The best model has been optimized for a part of the correspondences.
+  FinalPose fitToAll(const QueryPose& pose);
+  void judgeAll(const PoseScorer& scorer);
   InlierCounts inlierCounts(const QueryPose& pose) const;
 
   const sac::HybridRansacOptions& options_;
   Clock::time_point start_;
-  SearchData data_;
+  // All correspondences, a part of them if they are many, and those of the two that are searched in.
+  SearchData all_;
+  std::optional<SearchData> part_;
+  const SearchData& data_;
   Lens lens_;
   Intrinsics estimated_;
   SolverChoice choice_;
@@ -125,6 +134,8 @@ class HybridSearch {
   std::vector<WorkerState> workerStates_;
 
   Model best_;
+  PerKind<std::vector<char>> inliers_;
+  double score_ = 0;
   std::optional<Candidate> bestCandidate_;
   bool bestIsSignificant_ = false;
   Expectation expectation_;           // once a pose is significant

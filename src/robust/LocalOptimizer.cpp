@@ -345,6 +345,10 @@ double LocalOptimizer::logEvidenceForDistortion(const QueryPose& pose) const {
   return logEvidence(pose.distortion, std::sqrt(varianceOfDistortion(covariance)), lens_.prior);
 }
 
+FinalPose LocalOptimizer::polishNear(const QueryPose& start) const {
+  return polish(likeliest(start, moreThanChance(start), 1, {4, 1e-8}), false);
+}
+
 FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   FinalPose result;
   result.pose = start;

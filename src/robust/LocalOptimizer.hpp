@@ -38,6 +38,8 @@ class LocalOptimizer {
   // The same to full precision, then with single rays kept from deciding alone (Levers.hpp, Leverage.hpp). Without `optimize` only
   // the noise and the covariance of the start.
   FinalPose polish(const QueryPose& start, bool optimize) const;
+  // The same from a pose that was polished for a part of the correspondences.
+  FinalPose polishNear(const QueryPose& start) const;
   // Whether the deviation of the focal length is so small that no other optimum can be near.
   bool focalLengthIsSure(const QueryPose& pose) const;
   // Whether the likelihood falls clearly where the focal length is half or twice as large.

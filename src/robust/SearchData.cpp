@@ -61,5 +61,20 @@ SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const s
   return {std::move(rays), std::move(points), std::move(arrays), std::move(sampler)};
 }
 
+// The correspondences are in random order, so the first ones are as good as any.
+std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::HybridAdapterBase& adapter,
+                                 const sac::HybridRansacOptions& options) {
+  constexpr std::size_t kEnough = 1000;
+  const std::size_t rays = std::min(all.rayIndices.size(), kEnough), points = std::min(all.pointIndices.size(), kEnough);
+  if (rays == all.rayIndices.size() && points == all.pointIndices.size()) return std::nullopt;
+  const auto first = [](const std::vector<int>& indices, std::size_t count) {
+    return std::vector<int>(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  std::vector<int> rayIndices = first(all.rayIndices, rays), pointIndices = first(all.pointIndices, points);
+  CorrespondenceArrays arrays = all.arrays.subset(correspondences::allIndices(rays), correspondences::allIndices(points));
+  Sampler sampler = makeSampler(adapter, arrays, rayIndices, pointIndices, options.sampling);
+  return SearchData{std::move(rayIndices), std::move(pointIndices), std::move(arrays), std::move(sampler)};
+}
+
 }  // namespace robust
 }  // namespace hybridgv

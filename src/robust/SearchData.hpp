@@ -1,6 +1,7 @@
 // What a search works on: the correspondences in random order, and how samples are drawn from them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "correspondences/CorrespondenceArrays.hpp"
@@ -19,6 +20,10 @@ struct SearchData {
 
 // Reads everything that the adapter has. Throws std::invalid_argument for data or weights that are not finite.
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options);
+
+// A thousand of each kind tell as good as all where a pose is, and cost less. None if there are not more.
+std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::HybridAdapterBase& adapter,
+                                 const sac::HybridRansacOptions& options);
 
 }  // namespace robust
 }  // namespace hybridgv

@@ -19,7 +19,7 @@ int setMask(const std::vector<char>& inliers, const std::vector<int>& indices, s
 }
 
 void setMasks(const robust::HybridSearch& search, HybridRansacResult& result) {
-  const robust::PerKind<std::vector<char>> inliers = search.scorer().inliers(search.best().pose);
+  const robust::PerKind<std::vector<char>>& inliers = search.inliers();
   result.numberInliers2d2d = setMask(inliers.rays, search.data().rayIndices, result.inliers2d2d);
   result.numberInliers2d3d = setMask(inliers.points, search.data().pointIndices, result.inliers2d3d);
 }
@@ -98,7 +98,7 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   result.pose = normalization.undo(final.pose);
   result.noise2d2d = final.noise.rays.deviation;
   result.noise2d3d = final.noise.points.deviation;
-  result.score = search.best().evaluation.score;
+  result.score = search.score();
   result.solver = search.best().solver;
   setMasks(search, result);
   takeOut(final.refusedRays, search.data().rayIndices, result);

@@ -466,6 +466,28 @@ TEST(HybridRansac, StandardDeviationOfTheFocalLengthIsThatOfItsErrors) {
   EXPECT_LT(squares / count, 2.5);
 }
 
+// The search looks at a part of them, the result at all.
+TEST(HybridRansac, ManyCorrespondencesAreAllUsed) {
+  test::Random random(test::testSeed(), 79);
+  double squares = 0;
+  constexpr int kCount = 12;
+  for (int i = 0; i < kCount; ++i) {
+    const HybridScene scene = test::makeHybridScene(random, noisy(6000, 4000, 0.4));
+    HybridRansacOptions options;
+    options.seed = static_cast<std::uint64_t>(i);
+    const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+    ASSERT_TRUE(result.success);
+    expectSound(result, scene, options);
+    EXPECT_GT(result.numberInliers2d2d, 3500);
+    EXPECT_GT(result.numberInliers2d3d, 2300);
+    EXPECT_LT(result.focalLengthStandardDeviation, 0.002 * scene.truth.focalLength) << "that of a part is about 0.003";
+    squares += std::pow((result.pose.focalLength - scene.truth.focalLength) / result.focalLengthStandardDeviation, 2);
+    options.threads = 3;
+    EXPECT_EQ(hybridRansac(scene.adapter(), options).pose.focalLength, result.pose.focalLength);
+  }
+  EXPECT_LT(squares / kCount, 2.5);
+}
+
 TEST(HybridRansac, WrongOptionsAreRefused) {
   const NoncentralHybridAdapter adapter({}, {}, {}, {}, {}, {}, {});
   const std::vector<std::function<void(HybridRansacOptions&)>> mistakes = {
