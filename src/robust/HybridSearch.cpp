@@ -157,12 +157,13 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
 }
 
 // The best minimal solution so far, as long as no pose is believed. After that only better ones lead to another optimum, and less
-// than one wrong pose of those tried must be expected to look as good.
+// than one wrong pose of those tried must be expected to look as good. With unknown distortion others do too: how good a solution looks
+// depends on the distortion that was drawn for it.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   const bool isPromising = significance_.isPromising(candidate.logChance);
   const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
   if (isBest) bestCandidate_ = candidate;
-  return bestIsSignificant_ ? isPromising && isBest : isPromising || isBest;
+  return bestIsSignificant_ ? isPromising && (isBest || lens_.isUnknown) : isPromising || isBest;
 }
 
 void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
