@@ -38,10 +38,7 @@ int main() {
 
   // [readme]
   adapter.setRigFocalLengths({1000, 1000});  // where known: the errors of the map's own image points are counted too
-  hybridgv::sac::HybridRansacOptions options;
-  options.maxReprojectionErrorPx = 8;  // 2D-3D matches
-  options.maxEpipolarErrorPx = 2;      // 2D-2D matches
-  const hybridgv::sac::HybridRansacResult result = hybridgv::sac::hybridRansac(adapter, options);
+  const hybridgv::sac::HybridRansacResult result = hybridgv::sac::hybridRansac(adapter);  // the noise is found by itself
   if (!result.success) {
     std::printf("not localized: %s\n", toString(result.failureReason));
     return 1;
