@@ -17,6 +17,8 @@ without_times "$scratch/all" > "$scratch/a" && without_times "$scratch/stdin" > 
 cmp "$scratch/a" "$scratch/b" || fail "--stdin"
 
 "$program" "$map" --query photo_03.jpg 4 --solver h13f | grep -q '^photo_03.jpg' || fail "--query and --solver"
+"$program" --json --outliers 0.3 --seed 3 --undistort-query --rays-only > "$scratch/rays" || fail "--rays-only"
+[ "$(grep -c '"hybrid":{"success":true' "$scratch/rays")" -ge 14 ] || fail "images localized by rays only"
 "$program" --help | grep -q -- '--outliers' || fail "--help"
 "$program" --help | tr -s '\n ' ' ' | grep -q 'all, p4pf, .*h51f' || fail "--help lists the solvers"
 expect_error() {

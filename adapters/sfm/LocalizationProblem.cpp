@@ -89,6 +89,7 @@ class Matcher {
         limits_(limitsOf(options)),
         certainPoints_(withheld == kNoImage ? options.certainPoints.get() : nullptr),
         raysBesidePoints_(options.raysBesidePoints),
+        raysOnly_(options.raysOnly),
         leftOut_(query.leftOut) {}
 
   Matches match() {
@@ -133,6 +134,7 @@ class Matcher {
   }
 
   std::optional<Eigen::Vector3d> certainPositionOf(std::size_t point) const {
+    if (raysOnly_) return std::nullopt;
     if (certainPoints_ == nullptr) return certainPosition(map_, point, withheld_, limits_);
     return (*certainPoints_)[point] != 0 ? std::optional<Eigen::Vector3d>(map_.points[point].position) : std::nullopt;
   }
@@ -148,7 +150,7 @@ class Matcher {
   const QueryCamera camera_;
   const PointLimits limits_;
   const std::vector<char>* certainPoints_;  // null: not known yet
-  const bool raysBesidePoints_;
+  const bool raysBesidePoints_, raysOnly_;
   LeftOut leftOut_;
   Matches matches_;
 };

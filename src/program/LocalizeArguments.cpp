@@ -55,6 +55,7 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
   arguments.matches.undistortQuery = false;
   app.add_flag("--undistort-query", arguments.matches.undistortQuery,
                "remove the distortion of a query from the map by its calibration, and use its principal point");
+  app.add_flag("--rays-only", arguments.matches.raysOnly, "as if the map had no points: all its matches are 2D-2D");
   hybridgv::sac::HybridRansacOptions& ransac = arguments.ransac;
   addNumber(app, "--max-reprojection-error", ransac.maxReprojectionErrorPx, "inlier threshold of 2D-3D matches [px]",
             "positive and finite", isPositive);

@@ -34,6 +34,8 @@ struct LocalizationProblemOptions {
   /// size and the shape of its pixels is used, and not even the principal point where the size is known. (Cameras whose distortion is
   /// beyond what one parameter describes, of the models fisheye, FOV and so on, are undistorted in any case.)
   bool undistortQuery = true;
+  /// As if the map had no points, only images and matches: every correspondence is 2D-2D.
+  bool raysOnly = false;
   /// What findCertainPoints() has found for the map and these options, to save the time where there are many queries that are not in
   /// the map; null: looked for in every query anew.
   std::shared_ptr<const std::vector<char>> certainPoints = {};
