@@ -14,7 +14,7 @@ cmake -S /usr/src/googletest -B $build/googletest $cross -DCMAKE_C_COMPILER=$tar
   -DBUILD_GMOCK=OFF -DINSTALL_GTEST=ON
 cmake --build $build/googletest -j "$jobs" --target install
 
-cmake -S . -B $build $cross -DHYBRIDGV_WERROR=ON -DHYBRIDGV_COLMAP=OFF -DHYBRIDGV_PROGRAM=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF -DHYBRIDGV_BUILD_EXAMPLES=OFF \
+cmake -S . -B $build $cross -DHYBRIDGV_WERROR=ON -DHYBRIDGV_COLMAP=OFF -DHYBRIDGV_PROGRAM=OFF -DHYBRIDGV_PYTHON=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF -DHYBRIDGV_BUILD_EXAMPLES=OFF \
   -DCMAKE_DISABLE_FIND_PACKAGE_opengv=ON -DGTest_DIR="$PWD/$build/prefix/lib/cmake/GTest" \
   "-DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64;-L;/usr/$target"
 tests="simd_level_test dixon_test binary_form_roots_test bernstein_test rational_chebyshev_test kernels_test leverage_test

@@ -3,7 +3,7 @@
 # Recorded data are read from the folders that recorded_data.sh finds.
 set -e
 cd "$(dirname "$0")/.."
-sh .ci/install_packages.sh build tests benchmarks examples program pictures parallel
+sh .ci/install_packages.sh build tests benchmarks examples program python pictures parallel
 . test/recorded_data.sh
 jobs=$(nproc)
 strict=OFF

@@ -20,7 +20,8 @@ void checkSize(const char* name, std::size_t size, const char* reference, std::s
 std::string element(const char* name, std::size_t index) { return std::string(name) + "[" + std::to_string(index) + "]"; }
 
 void checkAllFinite(const char* name, const Vectors& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) checkFinite(element(name, i), values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)  // (names are made for messages only: there are many values)
+    if (!values[i].allFinite()) checkFinite(element(name, i), values[i]);
 }
 
 void checkImagePoints(const char* name, const Vectors& points) {

@@ -28,3 +28,19 @@ if(CLI11_FOUND AND nlohmann_json_FOUND)
   set(HYBRIDGV_PROGRAM_CAN_BE ON)
 endif()
 hybridgv_optional(PROGRAM HYBRIDGV_PROGRAM_CAN_BE "CLI11 and nlohmann_json (libcli11-dev, nlohmann-json3-dev)")
+
+# Sanitized code cannot be loaded into an interpreter that is not, and one for another processor not at all.
+if(NOT HYBRIDGV_PYTHON STREQUAL "OFF")
+  # The system's Python, where the module is installed, unless another one is asked for.
+  if(NOT Python3_EXECUTABLE AND NOT Python3_ROOT_DIR AND NOT SKBUILD AND NOT DEFINED ENV{VIRTUAL_ENV} AND NOT DEFINED ENV{CONDA_PREFIX}
+     AND EXISTS /usr/bin/python3)
+    set(Python3_EXECUTABLE /usr/bin/python3)
+  endif()
+  find_package(Python3 3.9 QUIET COMPONENTS Interpreter Development.Module NumPy)
+  find_package(pybind11 2.10 QUIET CONFIG)
+endif()
+set(HYBRIDGV_PYTHON_CAN_BE OFF)
+if(Python3_FOUND AND pybind11_FOUND AND NOT CMAKE_CROSSCOMPILING AND NOT HYBRIDGV_BUILD_FUZZERS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(HYBRIDGV_PYTHON_CAN_BE ON)
+endif()
+hybridgv_optional(PYTHON HYBRIDGV_PYTHON_CAN_BE "pybind11, Python and numpy (pybind11-dev, python3-dev, python3-numpy), no sanitizer")

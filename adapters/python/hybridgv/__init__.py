@@ -1,0 +1,37 @@
+"""Pose and unknown focal length of a camera from 2D-2D and 2D-3D matches.
+
+    >>> result = hybridgv.localize(points2D, points3D, points2D_rays, ray_directions, ray_origins, camera=(width, height))
+    >>> result.success, result.focal_length, result.cam_from_world
+
+Conventions: pixels as detected, the centre of the top left pixel at (0.5, 0.5) as in COLMAP; `cam_from_world` = [R | t] is COLMAP's
+and PoseLib's pose, `rotation` and `position` are OpenGV's (camera -> world, the camera's centre).
+"""
+
+from ._core import version as _version
+from ._errors import FileError
+from ._localize import bearing_vectors, distort, localize, undistort
+from ._options import Options
+from ._pose import FocalPose
+from ._result import Result
+from ._solvers import h13f, h32f, h51f, h70f, p3p, p4pf, p35pf, sixpt_onefocal
+
+__version__: str = _version()
+
+__all__ = [
+    "FileError",
+    "FocalPose",
+    "Options",
+    "Result",
+    "bearing_vectors",
+    "distort",
+    "h13f",
+    "h32f",
+    "h51f",
+    "h70f",
+    "localize",
+    "p35pf",
+    "p3p",
+    "p4pf",
+    "sixpt_onefocal",
+    "undistort",
+]
