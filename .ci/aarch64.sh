@@ -19,14 +19,16 @@ cmake -S . -B $build $cross -DHYBRIDGV_WERROR=ON -DHYBRIDGV_COLMAP=OFF -DHYBRIDG
   "-DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64;-L;/usr/$target"
 tests="simd_level_test dixon_test binary_form_roots_test bernstein_test rational_chebyshev_test kernels_test leverage_test
   error_mixture_test pose_scorer_test chance_model_test residuals_test optimize_test one_centre_test three_points_test
-  h32f_test h51f_test overflow_test solver_contract_test hybrid_ransac_test"
+  h32f_test h51f_test h70f_test overflow_test solver_contract_test hybrid_ransac_test"
 cmake --build $build -j "$jobs" --target hybridgv $tests
 
-# Every kernel computes with two doubles (v.2d), and H51f with four floats (v.4s), at once.
+# Every kernel computes with two doubles (v.2d), and H51f and H70f with four floats (v.4s), at once.
 for kernel in robust/kernels/KernelsVersion solvers/h32f/KernelVersion; do
   $target-objdump -d "$(find $build/src -path "*$kernel.baseline.cpp.o")" | grep -q 'fml[as].*\.2d' || { echo "$kernel: no NEON"; exit 1; }
 done
-$target-objdump -d "$(find $build/src -path "*solvers/h51f/solvePathsVersion.baseline.cpp.o")" | grep -q 'fml[as].*\.4s'
+for solver in h51f h70f; do
+  $target-objdump -d "$(find $build/src -path "*solvers/$solver/solvePathsVersion.baseline.cpp.o")" | grep -q 'fml[as].*\.4s'
+done
 
 for test in $tests; do
   echo "--- $test"

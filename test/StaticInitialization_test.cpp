@@ -25,9 +25,10 @@ Solved solve(FocalPoses (*function)(const hybrid_pose::HybridAdapterBase&), cons
   }
 }
 
-const Solved kSolved[] = {solve(&absolute_pose::p4pf, {}, 4),      solve(&absolute_pose::p35pf, {}, 4),
-                          solve(&hybrid_pose::h13f, {1}, 3),       solve(&hybrid_pose::h32f, {2, 1}, 2),
-                          solve(&hybrid_pose::h51f, {2, 2, 1}, 1), solve(&relative_pose::sixpt_onefocal, {6}, 0)};
+const Solved kSolved[] = {
+    solve(&absolute_pose::p4pf, {}, 4),           solve(&absolute_pose::p35pf, {}, 4),     solve(&hybrid_pose::h13f, {1}, 3),
+    solve(&hybrid_pose::h32f, {2, 1}, 2),         solve(&hybrid_pose::h51f, {2, 2, 1}, 1), solve(&hybrid_pose::h70f, {5, 2}, 0),
+    solve(&relative_pose::sixpt_onefocal, {6}, 0)};
 const FocalPose kRobust = [] {
   test::Random random(78);
   return sac::hybridRansac(test::makeAdapter(test::makeMinimalProblem(random, {10, 10}, 20))).pose;

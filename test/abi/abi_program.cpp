@@ -102,6 +102,8 @@ const std::vector<Item> kItems = {
     {"h32f", {2, 1}, 2, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h32f(adapter)); }},
     {"h51f[1]", {1, 1, 1, 1, 1}, 1, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h51f(adapter)); }},
     {"h51f[5]", {5}, 1, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h51f(adapter)); }},
+    {"h70f[6+1]", {6, 1}, 0, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h70f(adapter)); }},
+    {"h70f[4+3]", {4, 3}, 0, [](const auto& adapter, const FocalPose&) { return flatten(hybrid_pose::h70f(adapter)); }},
     {"sixpt_onefocal",
      {6},
      0,

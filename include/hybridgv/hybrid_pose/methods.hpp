@@ -123,13 +123,13 @@ HYBRIDGV_EXPORT FocalPoses h51f(const HybridAdapterBase& adapter);
 ///
 /// | rays of the centres with three or more | solutions at most | time, x opengv::absolute_pose::gp3p |
 /// |---|---|---|
-/// | 6 | 9 | 0.2 |
-/// | 5 | 50 | 24 to 68, by the instruction set |
-/// | 4 + 3 | 76 | 29 to 95 |
-/// | 4 | 84 | 32 to 115 |
-/// | 3 + 3 | 98 | 45 to 150 |
-/// | 3 | 108 | 42 to 160 |
-/// | none | 118 | 36 to 135 |
+/// | 6 | 9 | 0.17 |
+/// | 5 | 50 | 17 to 46, by the instruction set |
+/// | 4 + 3 | 76 | 24 to 64 |
+/// | 4 | 84 | 26 to 73 |
+/// | 3 + 3 | 98 | 27 to 82 |
+/// | 3 | 108 | 32 to 101 |
+/// | none | 118 | 26 to 89 |
 ///
 /// Real solutions in front of all cameras are few: 3 on average, 8 on a rig with a short baseline, at most 20 were ever seen.
 ///
