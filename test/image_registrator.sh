@@ -49,6 +49,23 @@ grep -q 'registered 2 of 2 images; 1 more are in the map already' summary || fai
 register --output_path part --image_list_path - < list > table 2> /dev/null || fail "a list from the standard input"
 [ "$(grep -c '^photo_' table)" = 2 ] || fail "a list from the standard input"
 
+# Several new images of one camera have it in common, and it is right.
+mkdir shared && "$2" shared 6 10 1500 shared || fail "the database of one camera"
+"$program" image_registrator --database_path shared/database.db --input_path shared/map --output_path shared/text --output_type TXT \
+  > table 2> summary || fail "one camera"
+grep -q 'registered 6 of 6' summary || fail "one camera: $(cat summary)"
+[ "$(grep -vc '^#' shared/text/cameras.txt)" = 11 ] || fail "one camera for six new images: $(cat shared/text/cameras.txt)"
+awk 'NR == FNR { f = $2; k = $3; next } $1 == 11 { e = $5 / f - 1; d = $8 - k; good = e * e < 1e-6 && d * d < 1e-4 } END { exit !good }' \
+  shared/truth.txt shared/text/cameras.txt || fail "the common camera is $(grep '^11 ' shared/text/cameras.txt), truth: $(head -1 shared/truth.txt)"
+
+# Interrupted: what was registered until then is written, and the next run does the rest.
+timeout -s INT 0.02 "$program" image_registrator --database_path database.db --input_path map --output_path stopped --quiet
+code=$?
+if [ -e stopped/images.bin ]; then
+  "$program" image_registrator --database_path database.db --input_path stopped --output_path stopped --quiet || fail "continued"
+  [ "$(wc -c < stopped/images.bin)" = "$(wc -c < new/out/images.bin)" ] || fail "interrupted ($code) and continued"
+fi
+
 # Text.
 register --output_path text --output_type TXT --quiet || fail "text"
 grep -q 'photo_18.jpg' text/images.txt || fail "text"

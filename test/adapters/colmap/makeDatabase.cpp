@@ -1,7 +1,7 @@
-// usage: makeDatabase FOLDER [QUERIES [MAP_IMAGES [POINTS]]]
+// usage: makeDatabase FOLDER [QUERIES [MAP_IMAGES [POINTS [shared]]]]
 // Writes a database without images as COLMAP would make it from photographs (database.db), the map of some of these (map/), and
 // where the others were taken (truth.txt: NAME F K1 QW QX QY QZ TX TY TZ): images on an arc around a cloud of points, each with its own
-// camera, half a pixel of noise, and a tenth of wrong matches.
+// camera (`shared`: the queries have one together), half a pixel of noise, and a tenth of wrong matches.
 #include <sys/stat.h>
 
 #include <Eigen/Geometry>
@@ -33,13 +33,20 @@ struct Photo {
   std::map<std::size_t, std::uint32_t> byPoint;  // keypoint of a point
 };
 
-Photo takePhoto(std::uint32_t id, double along, const std::vector<Eigen::Vector3d>& points, test::Random& random) {
+sfm::Camera makeCamera(std::uint32_t id, test::Random& random) {
+  sfm::Camera camera;
+  camera.id = id;
+  camera.model = sfm::CameraModel::SimpleRadial;
+  camera.width = kWidth;
+  camera.height = kHeight;
+  camera.parameters = {random.uniform(1100, 2200), kWidth / 2.0, kHeight / 2.0, random.uniform(-0.12, 0.06)};
+  return camera;
+}
+
+Photo takePhoto(std::uint32_t id, const sfm::Camera& camera, double along, const std::vector<Eigen::Vector3d>& points,
+                test::Random& random) {
   Photo photo;
-  photo.camera.id = id;
-  photo.camera.model = sfm::CameraModel::SimpleRadial;
-  photo.camera.width = kWidth;
-  photo.camera.height = kHeight;
-  photo.camera.parameters = {random.uniform(1100, 2200), kWidth / 2.0, kHeight / 2.0, random.uniform(-0.12, 0.06)};
+  photo.camera = camera;
   sfm::Image& image = photo.image;
   image.id = id;
   image.name = "photo_" + std::to_string(id) + ".jpg";
@@ -96,10 +103,10 @@ sfm::SparseModel makeMap(const std::vector<Photo>& photos, const std::vector<Eig
 }
 
 // COLMAP writes a guess of the focal length.
-void store(const Photo& photo, test::DatabaseFile& file) {
+void store(const Photo& photo, bool isCameraNew, test::DatabaseFile& file) {
   sfm::Camera guess = photo.camera;
   guess.parameters = {1.2 * kWidth, kWidth / 2.0, kHeight / 2.0, 0};
-  file.addCamera(guess, false);
+  if (isCameraNew) file.addCamera(guess, false);
   file.addImage(photo.image.id, photo.image.name, photo.camera.id);
   file.addKeypoints(photo.image.id, photo.keypoints);
 }
@@ -118,7 +125,7 @@ std::size_t numberAt(int argc, char** argv, int index, std::size_t otherwise) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return std::fprintf(stderr, "usage: makeDatabase FOLDER [QUERIES [MAP_IMAGES [POINTS]]]\n"), 2;
+  if (argc < 2) return std::fprintf(stderr, "usage: makeDatabase FOLDER [QUERIES [MAP_IMAGES [POINTS [shared]]]]\n"), 2;
   const std::string folder = argv[1];
   const std::size_t queries = numberAt(argc, argv, 2, 8), mapImages = numberAt(argc, argv, 3, 10);
   test::Random random(1, 1);
@@ -131,16 +138,20 @@ int main(int argc, char** argv) {
 
   std::vector<Photo> photos;
   for (std::size_t i = 0; i < mapImages; ++i) {
-    photos.push_back(takePhoto(static_cast<std::uint32_t>(i + 1), (i + 0.5) / mapImages, points, random));
-    store(photos.back(), file);
+    const auto id = static_cast<std::uint32_t>(i + 1);
+    photos.push_back(takePhoto(id, makeCamera(id, random), (i + 0.5) / mapImages, points, random));
+    store(photos.back(), true, file);
   }
   sfm::writeColmapBinary(folder + "/map", makeMap(photos, points));
   std::ofstream truth(folder + "/truth.txt");
   truth.precision(17);
+  const bool isShared = argc > 5;
+  const sfm::Camera common = makeCamera(static_cast<std::uint32_t>(mapImages + 1), random);
   for (std::size_t i = 0; i < queries; ++i) {
     const double along = random.uniform();
-    const Photo query = takePhoto(static_cast<std::uint32_t>(mapImages + i + 1), along, points, random);
-    store(query, file);
+    const auto id = static_cast<std::uint32_t>(mapImages + i + 1);
+    const Photo query = takePhoto(id, isShared ? common : makeCamera(id, random), along, points, random);
+    store(query, !isShared || i == 0, file);
     writeTruth(query, truth);
     const std::size_t partners = std::min(kPartners, mapImages);
     const auto middle = static_cast<std::size_t>(along * static_cast<double>(mapImages - partners + 1));
