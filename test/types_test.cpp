@@ -19,7 +19,8 @@ TEST(Solver, NamesAreTheInverseOfEachOther) {
 TEST(Solver, AllAreTheEnumeratorsInTheirOrder) {
   const std::vector<Solver> all = allSolvers();
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(static_cast<std::size_t>(all[i]), i);
-  for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f, Solver::H70f, Solver::P3P})
+  for (const Solver solver : {Solver::P4Pf, Solver::P35Pf, Solver::H13f, Solver::H32f, Solver::H51f, Solver::H70f, Solver::P3P,
+                              Solver::H22, Solver::H41, Solver::H60})
     EXPECT_TRUE(std::count(all.begin(), all.end(), solver)) << static_cast<int>(solver);
 }
 

@@ -74,6 +74,9 @@ enum class Solver {
   H51f,   ///< 5 2D-2D and 1 2D-3D, at most 56 solutions (9 if the five rays share one centre)
   H70f,   ///< 7 2D-2D, at most 118 solutions (9 if six of the rays share one centre)
   P3P,    ///< 3 2D-3D with known focal length, at most 4 solutions
+  H22,    ///< 2 2D-2D and 2 2D-3D with known focal length, at most 16 solutions
+  H41,    ///< 4 2D-2D of one rig camera and 1 2D-3D with known focal length, at most 10 solutions
+  H60,    ///< 6 2D-2D, five of them of one rig camera, with known focal length, at most 10 solutions
 };
 
 /// All of them, in the order of the enumerators.

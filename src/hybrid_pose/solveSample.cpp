@@ -27,6 +27,9 @@ FocalPoses solve(const MinimalSolver& solver, const Sample& sample, double focal
 
 [[noreturn]] static void refuseSeveralCameras(const SolverRows& problem, const Sample& sample,
                                               const std::vector<int>& rayIndices) {
+  if (problem.begin()->draw == solvers::RayDraw::AllButOne)
+    throwInvalid("indices", std::string(problem.name()) + " needs " + std::to_string(problem.rays() - 1) +
+                                " rays of one rig camera and one of another; these are shared in another way");
   const auto differs = [&](const solvers::RayMatch& ray) { return ray.camera != sample.rays[0].camera; };
   const auto other = std::find_if(sample.rays.begin(), sample.rays.begin() + problem.rays(), differs) - sample.rays.begin();
   throwInvalid("indices", "correspondences " + std::to_string(rayIndices[0]) + " and " +

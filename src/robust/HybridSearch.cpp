@@ -42,6 +42,11 @@ JackknifeGroups groupsOf(const CorrespondenceArrays& arrays) {
   return groups;
 }
 
+FocalLengthKnowledge knowledgeOf(const sac::HybridRansacOptions& options) {
+  if (options.knownFocalLengthPx) return FocalLengthKnowledge::Exact;
+  return options.focalLengthPriorPx ? FocalLengthKnowledge::Prior : FocalLengthKnowledge::None;
+}
+
 FocalLengthPrior makePrior(const sac::HybridRansacOptions& options) {
   if (!options.focalLengthPriorPx) return {};
   return {*options.focalLengthPriorPx, options.focalLengthPriorLogDeviation};
@@ -66,7 +71,7 @@ HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const 
       data_(part_ ? *part_ : all_),
       lens_(makeLens(data_.arrays, options)),
       estimated_{!options.knownFocalLengthPx, lens_.isUnknown},
-      choice_(makeStrategies(options.solvers, data_.sampler, estimated_)),
+      choice_(makeStrategies(options.solvers, data_.sampler, knowledgeOf(options))),
       guess_(makeGuess(options, data_.arrays)),
       scorer_(data_.arrays, thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, data_.arrays),
               options.scoring),

@@ -40,11 +40,23 @@ static void addStrategies(const sac::SolverPrior& entry, const Sampler& sampler,
   }
 }
 
-std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler, Intrinsics estimated) {
+static bool suits(const solvers::MinimalSolver& solver, FocalLengthKnowledge known) {
+  switch (known) {
+    case FocalLengthKnowledge::None:
+      return solver.intrinsics.focalLength || solver.rays == 0;
+    case FocalLengthKnowledge::Prior:
+      return true;
+    case FocalLengthKnowledge::Exact:
+      return !solver.intrinsics.focalLength;
+  }
+  return false;
+}
+
+std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors, const Sampler& sampler,
+                                     FocalLengthKnowledge known) {
   std::vector<Strategy> result;
   for (const sac::SolverPrior& entry : priors)
-    if (estimated.focalLength || !solvers::rowsOf(entry.solver).begin()->intrinsics.focalLength)
-      addStrategies(entry, sampler, result);
+    if (suits(*solvers::rowsOf(entry.solver).begin(), known)) addStrategies(entry, sampler, result);
   return result;
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hybridgv/sac/HybridRansacOptions.hpp"
-#include "robust/ParameterMatrix.hpp"
 #include "robust/Sampler.hpp"
 #include "solvers/MinimalProblems.hpp"
 
@@ -24,9 +23,13 @@ struct Strategy {
   double cost() const;  // microseconds per sample, scoring included
 };
 
-// The strategies for the given solvers that have enough data and do not estimate what is known.
+enum class FocalLengthKnowledge { None, Prior, Exact };
+
+// The strategies for the given solvers that have enough data and suit what is known of the focal length: where that is exact, those
+// that need it; where nothing is known, those that estimate it and P3P, at a guess (with rays in the sample, less is gained by a
+// point less than is lost by the guess); with a prior all.
 std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& solvers, const Sampler& sampler,
-                                     Intrinsics estimated = {});
+                                     FocalLengthKnowledge known = FocalLengthKnowledge::None);
 
 // A strategy s is drawn with probability proportional to prior x P_s / cost, P_s the probability that its sample has inliers
 // only. There is no factor (1 - P_s)^k_s for its k_s samples so far, as in Camposeco et al. (CVPR 2018): samples are independent,

@@ -48,6 +48,10 @@ static void checkFocalLength(const HybridRansacOptions& options) {
     throwInvalid("options.focalLengthPriorPx",
                  "has no meaning beside knownFocalLengthPx, is " + detail::format(*options.focalLengthPriorPx));
   const auto estimatesIt = [](const SolverPrior& entry) { return solvers::rowsOf(entry.solver).begin()->intrinsics.focalLength; };
+  const auto needsIt = [&](const SolverPrior& entry) { return !estimatesIt(entry) && solvers::rowsOf(entry.solver).rays() > 0; };
+  if (!options.knownFocalLengthPx && !options.focalLengthPriorPx && !options.solvers.empty() &&
+      std::all_of(options.solvers.begin(), options.solvers.end(), needsIt))
+    throwInvalid("options.solvers", "all need the focal length: neither knownFocalLengthPx nor focalLengthPriorPx is given");
   if (options.knownFocalLengthPx && !options.solvers.empty() &&
       std::all_of(options.solvers.begin(), options.solvers.end(), estimatesIt))
     throwInvalid("options.solvers",

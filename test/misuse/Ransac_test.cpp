@@ -64,6 +64,9 @@ TEST(Misuse, RansacRefusesWrongListsOfSolversAndWrongStarts) {
   options.knownFocalLengthPx = 1000;
   expectRefused("solvers that estimate what is known", "solvers", [&] { sac::hybridRansac(adapter, options); });
   options = {};
+  options.solvers = {{Solver::H22, 1}, {Solver::H60, 1}};
+  expectRefused("solvers that need the focal length", "solvers", [&] { sac::hybridRansac(adapter, options); });
+  options = {};
   options.knownFocalLengthPx = 1000;
   options.minFocalLength = 1200;
   expectRefused("known but too small", "knownFocalLengthPx", [&] { sac::hybridRansac(adapter, options); });

@@ -369,6 +369,8 @@ TEST(HybridRansac, OnlyTheGivenSolversAreDrawn) {
   for (const Solver solver : allSolvers()) {
     HybridRansacOptions options = thresholds();
     options.solvers = {{solver, 1}};
+    if (solver == Solver::H22 || solver == Solver::H41 || solver == Solver::H60)
+      options.focalLengthPriorPx = scene.truth.focalLength;
     const HybridRansacResult result = hybridRansac(scene.adapter(), options);
     EXPECT_TRUE(result.success);
     EXPECT_TRUE(isRight(result.pose, scene.truth)) << toString(solver);

@@ -100,7 +100,9 @@ TEST(MinimalProblems, PublicFunctionsSolveTheProblemOfTheirName) {
   } functions[] = {{"p4pf", estimating(&absolute_pose::p4pf)}, {"p35pf", estimating(&absolute_pose::p35pf)},
                    {"h13f", estimating(&hybrid_pose::h13f)},   {"h32f", estimating(&hybrid_pose::h32f)},
                    {"h51f", estimating(&hybrid_pose::h51f)},   {"sixpt_onefocal", estimating(&relative_pose::sixpt_onefocal)},
-                   {"h70f", estimating(&hybrid_pose::h70f)},   {"p3p", AtFocalLength(&absolute_pose::p3p)}};
+                   {"h70f", estimating(&hybrid_pose::h70f)},   {"p3p", AtFocalLength(&absolute_pose::p3p)},
+                   {"h22", AtFocalLength(&hybrid_pose::h22)},  {"h41", AtFocalLength(&hybrid_pose::h41)},
+                   {"h60", AtFocalLength(&hybrid_pose::h60)},  {"fivept", AtFocalLength(&relative_pose::fivept)}};
   test::Random random(test::testSeed() + 720);
   for (const auto& function : functions)
     for (const test::SolverConfiguration& configuration : test::configurationsOf(rowsOf(function.name))) {

@@ -149,6 +149,63 @@ HYBRIDGV_EXPORT FocalPoses h70f(const HybridAdapterBase& adapter, const std::vec
 /// H70f on the adapter's first seven 2D-2D correspondences.
 HYBRIDGV_EXPORT FocalPoses h70f(const HybridAdapterBase& adapter);
 
+/// H22: pose from two 2D-2D and two 2D-3D correspondences, the focal length f being known. With camFromWorld() = (R, t), a point X and a
+/// viewing ray c + beta q satisfy
+///
+///     (u, v, f) x (R X + t) = 0,   (u, v, f) . ((R c + t) x R q) = 0,   everything in front of the cameras.
+///
+/// \param adapter      the correspondences: image points relative to the principal point, undistorted; any unit. They are homogeneous:
+///                     bearing vectors (x, y, z), z > 0, are image points of a camera with f = 1
+/// \param focalLength  f, in the unit of the image points
+/// \param indices      {two 2D-2D, two 2D-3D}: the rays of one rig camera or of two
+/// \return at most 16 poses (2.5 on average), in no particular order, with f as their focal length. Empty for points, image points of
+///         points or rays that coincide, and data without a real solution. A ray that passes through one of the points says nothing.
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices, data that are not finite, and a focal length that is
+///         not positive and finite
+///
+/// The two points leave two angles, of which one is eliminated: a form of degree 16, searched where the points are in front; about 0.1
+/// times OpenGV's gp3p.
+HYBRIDGV_EXPORT FocalPoses h22(const HybridAdapterBase& adapter, double focalLength,
+                               const std::vector<std::vector<int>>& indices);
+/// H22 on the adapter's first correspondences.
+HYBRIDGV_EXPORT FocalPoses h22(const HybridAdapterBase& adapter, double focalLength);
+
+/// H41: pose from four 2D-2D correspondences of one rig camera and one 2D-3D correspondence, the focal length f being known. The
+/// equations are those of h22. The line from the camera's centre to the point is a fifth ray, and gives the scale.
+///
+/// \param adapter      the correspondences: image points relative to the principal point, undistorted; any unit. They are homogeneous:
+///                     bearing vectors (x, y, z), z > 0, are image points of a camera with f = 1
+/// \param focalLength  f, in the unit of the image points
+/// \param indices      {four 2D-2D of one rig camera, one 2D-3D}
+/// \return at most 10 poses (2.1 on average), in no particular order, with f as their focal length. Empty where relative_pose::fivept is,
+///         and if the point is the camera's centre or on one of the rays.
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices, correspondences of different rig cameras, data that are not finite, and a focal length that is
+///         not positive and finite
+///
+/// relative_pose::fivept and one linear equation; about 0.2 times OpenGV's gp3p.
+HYBRIDGV_EXPORT FocalPoses h41(const HybridAdapterBase& adapter, double focalLength,
+                               const std::vector<std::vector<int>>& indices);
+/// H41 on the adapter's first correspondences.
+HYBRIDGV_EXPORT FocalPoses h41(const HybridAdapterBase& adapter, double focalLength);
+
+/// H60: pose from six 2D-2D correspondences, five of one rig camera and one of another, the focal length f being known. The equations
+/// are those of h22. The sixth ray gives the scale.
+///
+/// \param adapter      the correspondences: image points relative to the principal point, undistorted; any unit. They are homogeneous:
+///                     bearing vectors (x, y, z), z > 0, are image points of a camera with f = 1
+/// \param focalLength  f, in the unit of the image points
+/// \param indices      {six 2D-2D, {}}: five of one rig camera and one of another, in any order
+/// \return at most 10 poses (2.0 on average), in no particular order, with f as their focal length. Empty where relative_pose::fivept is.
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices, rays that are shared by rig cameras in another way, data that are not finite, and a focal length that is
+///         not positive and finite
+///
+/// relative_pose::fivept and one linear equation; about 0.2 times OpenGV's gp3p. Six rays of other patterns have up to 64 solutions,
+/// and are not solved here: where one camera has five rays, this is the sample to draw.
+HYBRIDGV_EXPORT FocalPoses h60(const HybridAdapterBase& adapter, double focalLength,
+                               const std::vector<std::vector<int>>& indices);
+/// H60 on the adapter's first six 2D-2D correspondences.
+HYBRIDGV_EXPORT FocalPoses h60(const HybridAdapterBase& adapter, double focalLength);
+
 /// Result of optimize_nonlinear. What it says of the distortion is 0 unless that was estimated.
 struct HYBRIDGV_EXPORT NonlinearResult {
   FocalPose pose;          ///< the local minimum

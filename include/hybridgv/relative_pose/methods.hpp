@@ -46,5 +46,27 @@ HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& 
 /// The six-point solver on the adapter's first six 2D-2D correspondences.
 HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& adapter);
 
+/// Five points: relative pose of two cameras from five 2D-2D correspondences of one rig camera, the query's focal length f being known.
+/// With the camera's centre c and the viewing rays c + beta q_i,
+///
+///     (u_i, v_i, f) x rotation^T (c + beta_i q_i - position) = 0,   beta_i > 0,   in front of the query,   i = 1 .. 5.
+///
+/// \param adapter      its 2D-2D correspondences: image points relative to the principal point, undistorted; any unit. They are
+///                     homogeneous: bearing vectors (x, y, z), z > 0, are image points of a camera with f = 1
+/// \param focalLength  f, in the unit of the image points
+/// \param indices      five different 2D-2D correspondences of one rig camera (the first five entries are used)
+/// \return at most 10 poses (2.1 on average), in no particular order, each with |position - c| = 1, because the scale is not
+///         determined. Empty if there is none or the data are degenerate: no baseline, repeated rays, four points on one line. Five
+///         points in one plane are no special case. With a baseline of less than a hundredth of the distance one pose in fifty is lost.
+/// \throws std::invalid_argument for too few, repeated or out-of-range indices, correspondences of different rig cameras, data that
+///         are not finite, and a focal length that is not positive and finite
+///
+/// The ten cubics of the essential matrix, reduced to one form of degree 10; about 0.2 times OpenGV's gp3p. The problem: Nister, "An
+/// efficient solution to the five-point relative pose problem", 2004.
+HYBRIDGV_EXPORT FocalPoses fivept(const hybrid_pose::HybridAdapterBase& adapter, double focalLength,
+                                  const std::vector<int>& indices);
+/// The five-point solver on the adapter's first five 2D-2D correspondences.
+HYBRIDGV_EXPORT FocalPoses fivept(const hybrid_pose::HybridAdapterBase& adapter, double focalLength);
+
 }  // namespace relative_pose
 }  // namespace hybridgv

@@ -19,8 +19,8 @@ struct SolverPrior {
   double prior = 1;  ///< its weight relative to the others'; only the ratios matter
 };
 
-/// All solvers for a query image without distortion; P35Pf and P4Pf have a tenth of the others' weight, because P3P at a guess of the focal
-/// length finds the same poses with a point less.
+/// All solvers with the weights that suit most data: H70f, which is for rays alone, is left out; P35Pf and P4Pf have a tenth of the
+/// others' weight, because P3P at a guess of the focal length finds the same poses with a point less.
 HYBRIDGV_EXPORT std::vector<SolverPrior> defaultSolvers();
 
 /// What makes a pose better than another.
@@ -90,7 +90,8 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   std::vector<double> distortionHypotheses = {0, -0.1, -0.25};
 
   /// The solvers to choose from. One whose correspondences are absent is left out by itself, and with a known focal length one that
-  /// estimates it. Those that need it are given knownFocalLengthPx, or a guess.
+  /// estimates it. Those that need it are given knownFocalLengthPx; or a guess, P3P always, the others if there is a prior, and without
+  /// they are left out.
   std::vector<SolverPrior> solvers = defaultSolvers();
   Scoring scoring = Scoring::Msac;               ///< what makes a pose better, as long as it is not optimized
   Sampling sampling = Sampling::QualityOrdered;  ///< how samples are drawn

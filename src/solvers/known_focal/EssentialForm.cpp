@@ -1,0 +1,186 @@
+#include "solvers/known_focal/EssentialForm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybridgv {
+namespace solvers {
+namespace known_focal {
+namespace {
+
+using math::Pair;
+
+constexpr int kVariables = 4, kQuadratics = 10, kCubics = 20, kEquations = 10, kEliminated = 10, kForwardOnly = 4;
+
+// xx xy xz xw yy yz yw zz zw ww
+constexpr int kQuadratic[kVariables][kVariables] = {{0, 1, 2, 3}, {1, 4, 5, 6}, {2, 5, 7, 8}, {3, 6, 8, 9}};
+// Of such a monomial times x, y, z, w, in the order  xxx xxy xyy yyy  xxz xxw xyz xyw yyz yyw  xzz xzw xww yzz yzw yww zzz zzw zww www.
+constexpr int kCubic[kQuadratics][kVariables] = {{0, 1, 4, 5},     {1, 2, 6, 7},    {4, 6, 10, 11}, {5, 7, 11, 12},
+                                                 {2, 3, 8, 9},     {6, 8, 13, 14},  {7, 9, 14, 15}, {10, 13, 16, 17},
+                                                 {11, 14, 17, 18}, {12, 15, 18, 19}};
+
+// The entry (i, j) of E as a linear form: entries[i][variable][j], padded.
+struct Entries {
+  Pair e[3][kVariables][2];
+
+  explicit Entries(const PaddedMatrix* basis) {
+    for (int i = 0; i < 3; ++i)
+      for (int n = 0; n < kVariables; ++n) {
+        e[i][n][0] = Pair{basis[n][3 * i], basis[n][3 * i + 1]};
+        e[i][n][1] = Pair{basis[n][3 * i + 2], 0};
+      }
+  }
+  double at(int i, int n, int j) const { return e[i][n][j / 2][j % 2]; }
+};
+
+struct Quadratic {
+  double q[kQuadratics] = {};
+
+  void add(double factor, const Quadratic& other) {
+    for (int m = 0; m < kQuadratics; ++m) q[m] += factor * other.q[m];
+  }
+};
+
+// (E E^T)_ij
+Quadratic rowProduct(const Entries& E, int i, int j) {
+  Quadratic result;
+  for (int a = 0; a < kVariables; ++a)
+    for (int b = 0; b < kVariables; ++b) {
+      const Pair sum = E.e[i][a][0] * E.e[j][b][0] + E.e[i][a][1] * E.e[j][b][1];
+      result.q[kQuadratic[a][b]] += sum[0] + sum[1];
+    }
+  return result;
+}
+
+// E_1j E_2k - E_1k E_2j
+Quadratic minorOf(const Entries& E, int j, int k) {
+  Quadratic result;
+  for (int a = 0; a < kVariables; ++a)
+    for (int b = 0; b < kVariables; ++b)
+      result.q[kQuadratic[a][b]] += E.at(1, a, j) * E.at(2, b, k) - E.at(1, a, k) * E.at(2, b, j);
+  return result;
+}
+
+// Ten equations, a row each, over the twenty monomials.
+class Cubics {
+ public:
+  explicit Cubics(const Entries& E) {
+    Quadratic products[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) products[i][j] = products[j][i] = rowProduct(E, i, j);
+    Quadratic trace = products[0][0];
+    trace.add(1, products[1][1]);
+    trace.add(1, products[2][2]);
+    for (int i = 0; i < 3; ++i) products[i][i].add(-0.5, trace);
+    for (int i = 0; i < 3; ++i) addRowsOf(products[i], E, i);
+    addDeterminant(E);
+  }
+
+  // Gauss elimination with row pivots: the first four columns forward only, then the next six completely. Returns the least pivot.
+  double eliminate() {
+    double least = 1;
+    for (int column = 0; column < kEliminated && least > 0; ++column) {
+      int pivot = column;
+      for (int r = column + 1; r < kEquations; ++r)
+        if (std::abs(at(r, column)) > std::abs(at(pivot, column))) pivot = r;
+      if (pivot != column) std::swap_ranges(row_[pivot], row_[pivot] + kPairs, row_[column]);
+      const double value = at(column, column);
+      least = std::min(least, std::abs(value));
+      if (!(least > 0)) return 0;
+      for (Pair& pair : row_[column]) pair /= value;
+      for (int r = column < kForwardOnly ? column + 1 : kForwardOnly; r < kEquations; ++r)
+        if (r != column) subtract(r, column);
+    }
+    return least;
+  }
+
+  double at(int r, int column) const { return row_[r][column / 2][column % 2]; }
+
+ private:
+  static constexpr int kPairs = kCubics / 2;
+
+  // The three equations sum_k Q_k E_kj.
+  void addRowsOf(const Quadratic (&Q)[3], const Entries& E, int i) {
+    Pair sums[kCubics][2] = {};
+    for (int k = 0; k < 3; ++k)
+      for (int m = 0; m < kQuadratics; ++m)
+        for (int n = 0; n < kVariables; ++n) {
+          sums[kCubic[m][n]][0] += Q[k].q[m] * E.e[k][n][0];
+          sums[kCubic[m][n]][1] += Q[k].q[m] * E.e[k][n][1];
+        }
+    for (int j = 0; j < 3; ++j)
+      for (int p = 0; p < kPairs; ++p) row_[3 * i + j][p] = Pair{sums[2 * p][j / 2][j % 2], sums[2 * p + 1][j / 2][j % 2]};
+  }
+
+  void addDeterminant(const Entries& E) {
+    double sums[kCubics] = {};
+    for (int j = 0; j < 3; ++j) {
+      const Quadratic minor = minorOf(E, (j + 1) % 3, (j + 2) % 3);
+      for (int m = 0; m < kQuadratics; ++m)
+        for (int n = 0; n < kVariables; ++n) sums[kCubic[m][n]] += minor.q[m] * E.at(0, n, j);
+    }
+    for (int p = 0; p < kPairs; ++p) row_[kEquations - 1][p] = Pair{sums[2 * p], sums[2 * p + 1]};
+  }
+
+  // The part of the row that is still needed.
+  void subtract(int r, int column) {
+    const double factor = at(r, column);
+    for (int p = column / 2; p < kPairs; ++p) row_[r][p] -= factor * row_[column][p];
+  }
+
+  Pair row_[kEquations][kPairs];
+};
+
+}  // namespace
+
+bool EssentialForm::set(const PaddedMatrix* basis) {
+  Cubics cubics{Entries(basis)};
+  leastPivot_ = cubics.eliminate();
+  if (!(leastPivot_ > 0)) return false;
+  for (int i = 0; i < 3; ++i) {
+    // The two rows, with the coefficients of the last ten monomials.
+    const auto A = [&](int k) { return cubics.at(kForwardOnly + 2 * i, kEliminated + k); };
+    const auto B = [&](int k) { return cubics.at(kForwardOnly + 2 * i + 1, kEliminated + k); };
+    Equation& equation = equations_[i];
+    for (int k = 0; k < 4; ++k) {
+      equation.a[k] = (k > 0 ? A(k - 1) : 0) - (k < 3 ? B(k) : 0);
+      equation.b[k] = (k > 0 ? A(k + 2) : 0) - (k < 3 ? B(k + 3) : 0);
+    }
+    for (int k = 0; k < 5; ++k) equation.c[k] = (k > 0 ? A(k + 5) : 0) - (k < 4 ? B(k + 6) : 0);
+  }
+  return true;
+}
+
+template <class T>
+EssentialForm::Row<T> EssentialForm::row(int i, const T& z, const T& w) const {
+  const Equation& e = equations_[i];
+  const T zz = z * z, zw = z * w, ww = w * w;
+  return {z * (zz * e.a[0] + zw * e.a[1] + ww * e.a[2]) + ww * w * e.a[3],
+          z * (zz * e.b[0] + zw * e.b[1] + ww * e.b[2]) + ww * w * e.b[3],
+          zz * (zz * e.c[0] + zw * e.c[1] + ww * e.c[2]) + ww * (zw * e.c[3] + ww * e.c[4])};
+}
+
+math::Pair EssentialForm::value(const math::Pair& z, const math::Pair& w) const {
+  const Row<Pair> p = row(0, z, w), q = row(1, z, w), r = row(2, z, w);
+  return p.a * (q.b * r.c - q.c * r.b) + p.b * (q.c * r.a - q.a * r.c) + p.c * (q.a * r.b - q.b * r.a);
+}
+
+// Of the three rows, which are dependent at a root, every two have the solution as their cross product.
+void EssentialForm::coordinates(double z, double w, double (&result)[4]) const {
+  const Row<double> rows[3] = {row(0, z, w), row(1, z, w), row(2, z, w)};
+  double sum[3] = {0, 0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const Row<double>&p = rows[i], &q = rows[(i + 1) % 3];
+    const double n[3] = {p.b * q.c - p.c * q.b, p.c * q.a - p.a * q.c, p.a * q.b - p.b * q.a};
+    const double sign = n[0] * sum[0] + n[1] * sum[1] + n[2] * sum[2] < 0 ? -1 : 1;
+    for (int k = 0; k < 3; ++k) sum[k] += sign * n[k];
+  }
+  result[0] = sum[0];
+  result[1] = sum[1];
+  result[2] = sum[2] * z;
+  result[3] = sum[2] * w;
+}
+
+}  // namespace known_focal
+}  // namespace solvers
+}  // namespace hybridgv
