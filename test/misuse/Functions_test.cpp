@@ -44,10 +44,22 @@ std::vector<int> upTo(int count) {
   return indices;
 }
 
+// All rays of goodAdapter in an order whose first ones the solver takes: some want one of another camera behind those of the first.
+std::vector<int> raysFor(const PublicSolver& solver) {
+  std::vector<int> rays = upTo(12);
+  if (solver.name == std::string("h60")) std::rotate(rays.begin() + solver.rays - 1, rays.end() - 1, rays.end());
+  return rays;
+}
+
+std::vector<int> firstOf(std::vector<int> list, int count) {
+  list.resize(static_cast<std::size_t>(count));
+  return list;
+}
+
 TEST(Misuse, SolversRefuseWrongIndices) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   for (const PublicSolver& solver : publicSolvers()) {
-    const MultiIndices good{upTo(solver.rays), upTo(solver.points)};
+    const MultiIndices good{firstOf(raysFor(solver), solver.rays), upTo(solver.points)};
     EXPECT_NO_THROW(solver.solve(adapter, good)) << solver.name;
     const auto available = {static_cast<int>(adapter.getNumberCorrespondences2d2d()),
                             static_cast<int>(adapter.getNumberCorrespondences2d3d())};
@@ -86,8 +98,8 @@ TEST(Misuse, SolversRefuseWrongIndices) {
 TEST(Misuse, SolversUseTheFirstOfTooManyIndices) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   for (const PublicSolver& solver : publicSolvers()) {
-    const FocalPoses expected = solver.solve(adapter, {upTo(solver.rays), upTo(solver.points)});
-    const FocalPoses poses = solver.solve(adapter, {upTo(12), upTo(8)});
+    const FocalPoses expected = solver.solve(adapter, {firstOf(raysFor(solver), solver.rays), upTo(solver.points)});
+    const FocalPoses poses = solver.solve(adapter, {raysFor(solver), upTo(8)});
     ASSERT_EQ(poses.size(), expected.size()) << solver.name;
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].position, expected[i].position) << solver.name;
   }
@@ -109,12 +121,19 @@ TEST(Misuse, SolversRefuseAdaptersWithTooFewCorrespondences) {
   }
 }
 
+TEST(Misuse, H60RefusesOtherWaysToShareRays) {
+  const NoncentralHybridAdapter adapter = goodAdapter();
+  for (const std::vector<int>& rays : {std::vector<int>{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 10, 11}})
+    expectRefused("h60", "indices: h60 needs 5 rays of one rig camera", [&] { hybrid_pose::h60(adapter, 1000, {rays, {}}); });
+}
+
 TEST(Misuse, SolversRefuseFocalLengthsThatAreNotPositiveAndFinite) {
   const NoncentralHybridAdapter adapter = goodAdapter();
   for (const double value : {kNaN, kInfinite, -kInfinite, 0.0, -1.0}) {
     const std::string name = std::to_string(value);
     expectRefused("p3p " + name, "focalLength", [&] { absolute_pose::p3p(adapter, value); });
     expectRefused("p3p " + name, "focalLength", [&] { absolute_pose::p3p(adapter, value, {0, 1, 2}); });
+    expectRefused("h22 " + name, "focalLength", [&] { hybrid_pose::h22(adapter, value); });
   }
 }
 
