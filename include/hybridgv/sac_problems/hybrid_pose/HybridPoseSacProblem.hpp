@@ -40,7 +40,7 @@ namespace hybrid_pose {
 ///   loop's own count is one more. In exchange the right solution is kept practically always, where one extra correspondence
 ///   keeps it in 82 to 95 % of the cases (50 to 20 % outliers, 1 px noise) and would enlarge the sample in the loop's stopping
 ///   rule.
-/// * **H51f** draws its five rays from one rig camera where one has five, **H70f** six of its seven where one has six (see
+/// * **H51f**, **H41** draw their rays from one rig camera where one has enough, **H60** and **H70f** all but one of them (see
 ///   setRaysFromOneCamera).
 /// * **Seed**: the same seed gives the same samples on every platform, and the same result on the same machine. All random
 ///   numbers come from OpenGV's rnd(), which this class sets up.
