@@ -70,8 +70,8 @@ class HYBRIDGV_EXPORT HybridProblemCore {
 
   /// Draws a minimal sample with random numbers 0 .. 2^31-1, in a time that does not depend on the size of the pool: every subset of
   /// the right mixture is equally likely. The result are places in pool.indices(), of the 2D-2D correspondences first; empty if the
-  /// pool is too small. `raysFromOneCamera`: the 2D-2D correspondences (H60, H70f: all but one) come from one rig camera, chosen with a probability
-  /// proportional to its number of matches among those that have enough; where none has, from any cameras.
+  /// pool is too small. `raysFromOneCamera`: the 2D-2D correspondences (H60, H70f: all but one) come from one rig camera, chosen with
+  /// a probability proportional to its number of matches among those that have enough; where none has, from any cameras.
   void drawSample(const CorrespondencePool& pool, bool raysFromOneCamera, const std::function<int()>& random,
                   std::vector<int>& places) const;
 
