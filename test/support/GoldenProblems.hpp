@@ -32,9 +32,9 @@ inline int cameraOf(const MinimalProblem& problem, const Eigen::Vector3d& centre
   return cameras;
 }
 
-// The problems of one file of the golden folder; empty if the file is absent.
-inline std::vector<GoldenProblem> readGoldenProblems(const std::string& name) {
-  std::ifstream file(std::string(HYBRIDGV_GOLDEN_DIR) + "/" + name);
+// The problems of one file of the folder, by default the golden one; empty if the file is absent.
+inline std::vector<GoldenProblem> readGoldenProblems(const std::string& name, const std::string& folder = HYBRIDGV_GOLDEN_DIR) {
+  std::ifstream file(folder + "/" + name);
   std::vector<GoldenProblem> problems;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);

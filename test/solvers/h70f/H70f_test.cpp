@@ -217,6 +217,18 @@ TEST_P(H70fPatterns, RecognizesSharedCentres) {
   expectEqual(solve(inexact), expected, 1e-6);
 }
 
+// Solved by other means, see recordH70f.
+TEST_P(H70fPatterns, FindsAllRecordedSolutions) {
+  if (GetParam() == kSixAndOne) GTEST_SKIP() << "is not solved by following paths";
+  const std::vector<GoldenProblem> problems = readGoldenProblems("h70f_" + nameOf(GetParam()) + ".txt", HYBRIDGV_RECORDED_DIR);
+  ASSERT_FALSE(problems.empty());
+  for (const GoldenProblem& recorded : problems) {
+    const FocalPoses solutions = solve(recorded.problem);
+    expectValid(recorded.problem, solutions);
+    expectEqual(solutions, recorded.solutions, 1e-6);
+  }
+}
+
 TEST_P(H70fPatterns, DoesNotDependOnTheOrderOfTheRays) {
   for (std::uint64_t i = 0; i < 5; ++i) {
     Random random(testSeed() + 50, i);
