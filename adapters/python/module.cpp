@@ -35,5 +35,12 @@ PYBIND11_MODULE(_core, module) {
   py::register_exception_translator(&translate);
   hybridgv::python::addLocalize(module);
   hybridgv::python::addSolvers(module);
+  hybridgv::python::addMaps(module);
+#if defined(HYBRIDGV_WITH_COLMAP)
+  hybridgv::python::addRegistration(module);
+#endif
+#if defined(HYBRIDGV_WITH_PROGRAM)
+  hybridgv::python::addProgram(module);
+#endif
   module.def("version", &hybridgv::version);
 }

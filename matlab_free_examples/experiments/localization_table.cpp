@@ -4,6 +4,7 @@
 // Writes localization_table.csv. Takes any COLMAP, Bundler or NVM models; without one, the map that comes with the library.
 #include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
+#include <hybridgv/detail/parallelFor.hpp>
 #include <hybridgv/sac/HybridRansac.hpp>
 
 #include <cmath>
@@ -16,7 +17,6 @@
 #include "common/PoseError.hpp"
 #include "common/ProgressBar.hpp"
 #include "common/Statistics.hpp"
-#include "common/parallelFor.hpp"
 
 namespace {
 
@@ -130,7 +130,7 @@ void run(const Settings& settings) {
     for (const SolverSet& set : kSolverSets)
       for (const bool optimize : {false, true}) {
         std::vector<Attempt> results(attempts);
-        parallelFor(attempts, settings.options.threads, [&](std::size_t i) {
+        hybridgv::detail::parallelFor(attempts, settings.options.threads, [&](std::size_t i) {
           HybridRansacOptions options = settings.ransac;
           options.solvers = set.solvers;
           options.localOptimization = options.finalOptimization = optimize;

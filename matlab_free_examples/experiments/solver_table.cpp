@@ -2,6 +2,7 @@
 //
 // Writes solver_table.csv. Times are those of the public functions on one thread, beside OpenGV's gp3p in the same run.
 #include <hybridgv/absolute_pose/methods.hpp>
+#include <hybridgv/detail/parallelFor.hpp>
 #include <hybridgv/hybrid_pose/methods.hpp>
 
 #include <memory>
@@ -14,7 +15,6 @@
 #include "MinimalProblem.hpp"
 #include "common/ProgressBar.hpp"
 #include "common/Statistics.hpp"
-#include "common/parallelFor.hpp"
 
 namespace {
 
@@ -68,7 +68,7 @@ struct Statistics {
 Statistics countSolutions(const Row& row, const Settings& settings, ProgressBar& progress) {
   std::vector<std::size_t> counts(settings.problems);
   std::vector<char> recovered(settings.problems);
-  parallelFor(settings.problems, settings.options.threads, [&](std::size_t i) {
+  hybridgv::detail::parallelFor(settings.problems, settings.options.threads, [&](std::size_t i) {
     Random random(settings.options.seed, i);
     const hybridgv::test::MinimalProblem problem = hybridgv::test::makeMinimalProblem(random, row.raysPerCamera, row.points);
     const FocalPoses solutions = row.solve(hybridgv::test::makeAdapter(problem));

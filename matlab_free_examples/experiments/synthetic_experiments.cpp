@@ -3,6 +3,7 @@
 //
 // Writes synthetic_noise.csv (quantiles of the errors) and synthetic_stability.csv (histogram of log10 of the focal error).
 #include <hybridgv/absolute_pose/methods.hpp>
+#include <hybridgv/detail/parallelFor.hpp>
 #include <hybridgv/hybrid_pose/methods.hpp>
 
 #include <algorithm>
@@ -16,7 +17,6 @@
 #include "common/PoseError.hpp"
 #include "common/ProgressBar.hpp"
 #include "common/Statistics.hpp"
-#include "common/parallelFor.hpp"
 
 namespace {
 
@@ -53,7 +53,7 @@ struct Experiment {
   // errors[solver][scene]
   std::vector<std::vector<PoseError>> errors(Motion motion, const Noise& noise, ProgressBar& progress) const {
     std::vector<std::vector<PoseError>> result(kSolvers.size(), std::vector<PoseError>(scenes));
-    parallelFor(scenes, options.threads, [&](std::size_t i) {
+    hybridgv::detail::parallelFor(scenes, options.threads, [&](std::size_t i) {
       const SyntheticScene scene = makeSyntheticScene(hybridgv::test::Random(options.seed, i), motion, noise);
       for (std::size_t s = 0; s < kSolvers.size(); ++s)
         result[s][i] = errorOfNearest(kSolvers[s].solve(scene.adapter, kSolvers[s].sample), scene.query);

@@ -5,6 +5,7 @@
 // models), distortion_price.csv (lenses without distortion), and with maps distortion_maps.csv (images with their own lenses).
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
 #include <hybridgv/adapters/sfm/ransacOptions.hpp>
+#include <hybridgv/detail/parallelFor.hpp>
 #include <hybridgv/sac/HybridRansac.hpp>
 
 #include <array>
@@ -19,7 +20,6 @@
 #include "common/PoseError.hpp"
 #include "common/ProgressBar.hpp"
 #include "common/Statistics.hpp"
-#include "common/parallelFor.hpp"
 
 namespace {
 
@@ -106,7 +106,7 @@ void writeRows(CsvFile& csv, const std::string& key, const Attempts& attempts) {
 Attempts attemptScenes(const WideSceneOptions& scene, int scenes, const CommonOptions& common, bool dividesTrueLens) {
   Attempts attempts;
   for (std::vector<Attempt>& of : attempts) of.resize(static_cast<std::size_t>(scenes));
-  parallelFor(static_cast<std::size_t>(scenes), common.threads, [&](std::size_t i) {
+  hybridgv::detail::parallelFor(static_cast<std::size_t>(scenes), common.threads, [&](std::size_t i) {
     hybridgv::test::Random random(common.seed, i);
     const HybridScene data = makeWideScene(random, scene);
     hybridgv::NoncentralHybridAdapter adapter = data.adapter();

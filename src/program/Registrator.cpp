@@ -1,18 +1,15 @@
 #include "Registrator.hpp"
 
+#include <hybridgv/adapters/colmap/registerImages.hpp>
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
 #include <hybridgv/adapters/sfm/addToModel.hpp>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <map>
-#include <mutex>
 #include <set>
-#include <thread>
 
 #include "LocalizationJson.hpp"
 #include "OutputFile.hpp"
@@ -20,7 +17,6 @@
 #include "RegistratorTable.hpp"
 #include "common/CommandLine.hpp"
 #include "common/ProgressBar.hpp"
-#include "common/parallelFor.hpp"
 #include "poseNumbers.hpp"
 
 namespace program {
@@ -31,37 +27,22 @@ using namespace hybridgv::sfm;
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void interrupt(int) { interrupted = 1; }
 
-// One image: what was found, or why there is nothing.
-struct Outcome {
-  std::string name, failure;
-  QueryImage query;
-  std::unique_ptr<QueryLocalization> localization;  // null: it could not be read
-
-  bool success() const { return localization && localization->success; }
-  std::string reason() const { return localization ? localization->reason : failure; }
-};
-
 class Registration {
  public:
   explicit Registration(const RegistratorArguments& arguments)
-      : arguments_(arguments),
-        options_(arguments.localization),
-        map_(read()),
-        queries_(ColmapDatabase(arguments.database), map_, arguments.queries),
-        threads_(arguments.threads > 0 ? arguments.threads
-                                       : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {}
+      : arguments_(arguments), map_(read()), queries_(ColmapDatabase(arguments.database), map_, arguments.queries) {}
 
   int run() {
     names_ = wanted();
     openOutputs();
-    options_.estimateDistortion = arguments_.estimateDistortion;
-    if (names_.size() > kFewQueries) options_.matches.certainPoints = findCertainPoints(map_, options_.matches);
-    findCommonCameras();
     SparseModel result = map_;
-    localizeAll(names_, "", [&](Outcome& outcome) {
-      if (outcome.success()) addToModel(result, outcome.query, *outcome.localization);
-      report(outcome);
-    });
+    registerImages(
+        map_, queries_, names_, arguments_.registration,
+        [&](RegisteredImage& image) {
+          if (image.success()) addToModel(result, image.query, *image.localization);
+          report(image);
+        },
+        watch());
     finish(result);
     if (interrupted != 0) return kInterrupted;
     return arguments_.requireAll && table_.registered() < names_.size() ? kNotAll : 0;
@@ -108,75 +89,19 @@ class Registration {
     if (!arguments_.json.empty() && arguments_.json != "-") json_ = std::make_unique<OutputFile>(arguments_.json);
   }
 
-  // Images that share a camera of which nothing is known agree on it first.
-  void findCommonCameras() {
-    std::map<std::uint32_t, std::vector<std::string>> byCamera;
-    for (const std::string& name : names_) byCamera[queries_.database().findImage(name)->camera].push_back(name);
-    std::vector<std::string> shared;
-    for (const auto& [camera, names] : byCamera)
-      if (names.size() > 1) shared.insert(shared.end(), names.begin(), names.end());
-    std::map<std::uint32_t, std::vector<CameraEstimate>> estimates;
-    localizeAll(shared, "cameras: ", [&](const Outcome& outcome) {
-      if (outcome.success() && outcome.query.knowledge != CameraKnowledge::Known)
-        estimates[queries_.database().findImage(outcome.name)->camera].push_back(estimateOf(*outcome.localization));
-    });
-    for (const auto& [camera, all] : estimates) common_[camera] = agree(all);
+  RegistrationWatch watch() {
+    RegistrationWatch watch;
+    watch.begin = [this](const char* pass, std::size_t count) {
+      const bool isFirst = std::string(pass) == "cameras";
+      progress_ = std::make_unique<ProgressBar>(count, !arguments_.quiet, isFirst ? "cameras: " : "");
+    };
+    watch.step = [this] { progress_->step(); };
+    watch.end = [this] { progress_.reset(); };
+    watch.isCancelled = [] { return interrupted != 0; };
+    return watch;
   }
 
-  // Several images at once; what is done with them is done in their order, so that the number of threads does not matter.
-  template <class Use>
-  void localizeAll(const std::vector<std::string>& names, const char* what, const Use& use) {
-    constexpr std::size_t kPerThread = 8;
-    const std::size_t batch = kPerThread * static_cast<std::size_t>(threads_);
-    ProgressBar progress(names.size(), !arguments_.quiet, what);
-    progress_ = &progress;
-    for (std::size_t first = 0; first < names.size() && interrupted == 0; first += batch) {
-      std::vector<Outcome> outcomes(std::min(batch, names.size() - first));
-      parallelFor(outcomes.size(), threads_, [&](std::size_t i) {
-        outcomes[i] = localize(names[first + i]);
-        progress.step();
-      });
-      for (Outcome& outcome : outcomes) use(outcome);
-    }
-    progress_ = nullptr;
-  }
-
-  Outcome localize(const std::string& name) {
-    Outcome outcome;
-    outcome.name = name;
-    try {
-      std::optional<CameraEstimate> common;
-      {
-        const std::lock_guard<std::mutex> lock(databaseMutex_);
-        outcome.query = queries_.read(name);
-        const auto found = common_.find(queries_.database().findImage(name)->camera);
-        if (found != common_.end()) common = found->second;
-      }
-      localize(common, outcome);
-    } catch (const std::exception& error) {  // of this image alone
-      outcome.failure = error.what();
-    }
-    return outcome;
-  }
-
-  void localize(const std::optional<CameraEstimate>& common, Outcome& outcome) const {
-    if (!arguments_.estimateFocalLength) outcome.query.knowledge = CameraKnowledge::Known;
-    QueryOptions options = options_;
-    const double side = static_cast<double>(std::max(outcome.query.camera.width, outcome.query.camera.height));
-    if (side > 0) {
-      options.ransac.minFocalLength = arguments_.minFocalRatio * side;
-      options.ransac.maxFocalLength = arguments_.maxFocalRatio * side;
-    }
-    outcome.localization = std::make_unique<QueryLocalization>(common ? localizeQuery(map_, outcome.query, *common, options)
-                                                                      : localizeQuery(map_, outcome.query, options));
-    QueryLocalization& found = *outcome.localization;
-    if (found.success && std::abs(found.k1) > arguments_.maxDistortion) {
-      found.success = false;
-      found.reason = "the distortion found is larger than --Mapper.max_extra_param";
-    }
-  }
-
-  void report(const Outcome& outcome) {
+  void report(const RegisteredImage& outcome) {
     if (outcome.localization && results_ && outcome.success()) {
       std::string line = outcome.name;
       for (const double value : poseNumbers(outcome.localization->result.pose)) line += " " + inDigits(value);
@@ -197,7 +122,7 @@ class Registration {
 
   template <class Print>
   void print(const Print& printIt) {
-    if (progress_ != nullptr) progress_->clear();
+    if (progress_) progress_->clear();
     printIt();
     flushOutput();
   }
@@ -210,20 +135,13 @@ class Registration {
     if (!arguments_.quiet) table_.printSummary(stderr, skipped_, interrupted != 0 ? names_.size() : 0);
   }
 
-  // So few do not meet all points of the map.
-  static constexpr std::size_t kFewQueries = 20;
-
   const RegistratorArguments& arguments_;
-  QueryOptions options_;
   const SparseModel map_;
   DatabaseQueries queries_;
-  const int threads_;
-  std::mutex databaseMutex_;
   std::vector<std::string> names_;
   std::size_t skipped_ = 0;
-  std::map<std::uint32_t, std::optional<CameraEstimate>> common_;  // by camera of the database
   std::unique_ptr<OutputFile> results_, json_;
-  ProgressBar* progress_ = nullptr;
+  std::unique_ptr<ProgressBar> progress_;
   RegistratorTable table_;
 };
 

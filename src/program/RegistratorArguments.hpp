@@ -2,7 +2,7 @@
 #pragma once
 
 #include <hybridgv/adapters/colmap/DatabaseQueries.hpp>
-#include <hybridgv/adapters/sfm/localizeQuery.hpp>
+#include <hybridgv/adapters/colmap/registerImages.hpp>
 
 #include <string>
 #include <vector>
@@ -13,12 +13,7 @@ struct RegistratorArguments {
   std::string database, input, output, imageList, results, json;
   std::string outputType = "BIN";
   hybridgv::sfm::DatabaseQueryOptions queries;
-  hybridgv::sfm::QueryOptions localization;
-  // Of the longer side of the image.
-  double minFocalRatio = 0.1, maxFocalRatio = 10;
-  double maxDistortion = 1;
-  int threads = -1;  // -1: one for each core
-  bool estimateFocalLength = true, estimateDistortion = true;
+  hybridgv::sfm::RegistrationOptions registration;
   bool requireAll = false, quiet = false;
 };
 

@@ -1,56 +1,14 @@
-// The program `hybridgv`: its sub-commands.
-#include <hybridgv/types.hpp>
-
+// The program `hybridgv`.
 #include <cstdio>
 #include <exception>
-#include <string>
-#include <vector>
 
-#include "Localize.hpp"
+#include "Commands.hpp"
 #include "common/CommandLine.hpp"
-#if defined(HYBRIDGV_WITH_COLMAP)
-#include "Registrator.hpp"
-#endif
-
-namespace {
-
-constexpr const char* kHelp =
-    "Localizes images of unknown focal length and distortion against a map, from 2D-2D and 2D-3D matches together.\n"
-    "Usage: hybridgv COMMAND [OPTIONS]\n"
-    "\n"
-    "Commands:\n"
-    "  image_registrator  registers images of a COLMAP database in a map; takes the options of COLMAP's command\n"
-    "  localize           localizes images of a map, each left out of it, or problems in text files\n"
-    "\n"
-    "Options:\n"
-    "  -h,--help     print this help message and exit; hybridgv COMMAND --help prints that of a command\n"
-    "  --version     print the version and exit\n";
-
-int run(const std::string& command, std::vector<std::string> arguments) {
-  if (command == "localize") return program::runLocalize(std::move(arguments));
-#if defined(HYBRIDGV_WITH_COLMAP)
-  if (command == "image_registrator") return program::runRegistrator(std::move(arguments));
-#else
-  if (command == "image_registrator") throw std::runtime_error("image_registrator: this program was built without SQLite");
-#endif
-  if (command == "--help" || command == "-h" || command == "help")
-    std::fputs(kHelp, stdout);
-  else if (command == "--version")
-    std::printf("hybridgv %s\n", hybridgv::version());
-  else
-    return std::fprintf(stderr, "hybridgv: there is no command %s; hybridgv --help lists them\n",
-                        program::quoted(command).c_str()),
-           program::kWrongUsage;
-  program::flushOutput();
-  return 0;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return std::fputs(kHelp, stderr), program::kWrongUsage;
+  if (argc < 2) return program::printHelp();
   try {
-    return run(argv[1], std::vector<std::string>(argv + 2, argv + argc));
+    return program::run(argv[1], std::vector<std::string>(argv + 2, argv + argc));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "hybridgv: %s\n", error.what());
     return program::kFailed;

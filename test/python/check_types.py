@@ -17,5 +17,9 @@ with tempfile.TemporaryDirectory() as cache:
     mypy = [sys.executable, "-m", "mypy", "--strict", "--python-version", "3.11", package, *sys.argv[1:]]
     strict = subprocess.run(mypy, env=environment).returncode
     environment["PYTHONPATH"] = os.environ["PYTHONPATH"]
-    stubs = subprocess.run([sys.executable, "-m", "mypy.stubtest", "hybridgv._core"], env=environment).returncode
+    allowed = os.path.join(cache, "allowed")
+    with open(allowed, "w", encoding="utf-8") as file:
+        file.write("hybridgv._core.Map\n")  # its metaclass is pybind11's
+    stubtest = [sys.executable, "-m", "mypy.stubtest", "--allowlist", allowed, "hybridgv._core"]
+    stubs = subprocess.run(stubtest, env=environment).returncode
 sys.exit(strict or stubs)

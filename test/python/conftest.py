@@ -1,6 +1,10 @@
 """Scenes with known truth."""
 
+import os
+import sqlite3
+import subprocess
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -76,3 +80,58 @@ def scene():
 @pytest.fixture
 def camera():
     return WIDTH, HEIGHT
+
+
+@pytest.fixture(scope="session")
+def database(tmp_path_factory):
+    """A folder with database.db, map/ and truth.txt, made by the program makeDatabase."""
+    program = os.environ.get("HYBRIDGV_MAKE_DATABASE", "")
+    if not program:
+        pytest.skip("built without SQLite")
+    folder = tmp_path_factory.mktemp("database")
+    subprocess.run([program, str(folder), "4"], check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def photos():
+    """The folder of real photos."""
+    folder = Path(os.environ.get("HYBRIDGV_REALDATA_DIR") or "/nowhere") / "photos"
+    if not folder.is_dir():
+        pytest.skip("there are no recorded data")
+    return folder
+
+
+def read_truth(folder):
+    """{name: (focal length, k1, qvec, tvec)}"""
+    rows = [line.split() for line in (folder / "truth.txt").read_text().splitlines()]
+    return {r[0]: (float(r[1]), float(r[2]), np.array(r[3:7], float), np.array(r[7:10], float)) for r in rows}
+
+
+_PAIR = 2147483647
+
+
+class Database:
+    """What a COLMAP database says of one image and a map, read by other means than the library's."""
+
+    def __init__(self, path):
+        self.connection = sqlite3.connect(f"file:{path}?mode=ro&immutable=1", uri=True)
+        self.ids = dict(self.connection.execute("SELECT name, image_id FROM images"))
+
+    def size(self, name):
+        query = "SELECT width, height FROM images JOIN cameras USING (camera_id) WHERE name = ?"
+        return self.connection.execute(query, (name,)).fetchone()
+
+    def keypoints(self, name):
+        query = "SELECT rows, cols, data FROM keypoints WHERE image_id = ?"
+        rows, cols, data = self.connection.execute(query, (self.ids[name],)).fetchone()
+        return np.frombuffer(data, np.float32).reshape(rows, cols)[:, :2].astype(float)
+
+    def matches(self, a, b):
+        first, second = sorted((self.ids[a], self.ids[b]))
+        query = "SELECT rows, data FROM two_view_geometries WHERE pair_id = ?"
+        found = self.connection.execute(query, (_PAIR * first + second,)).fetchone()
+        if not found or not found[0]:
+            return np.empty((0, 2), int)
+        pairs = np.frombuffer(found[1], np.uint32).reshape(-1, 2).astype(int)
+        return pairs if first == self.ids[a] else pairs[:, ::-1]

@@ -1,5 +1,8 @@
 # The Python package as it is in the build tree: pytest, and mypy on its types. Where these are missing the tests are skipped.
-set(python_environment PYTHONPATH=${PROJECT_BINARY_DIR}/adapters/python PYTHONDONTWRITEBYTECODE=1)
+set(python_environment PYTHONPATH=${PROJECT_BINARY_DIR}/adapters/python PYTHONDONTWRITEBYTECODE=1 HYBRIDGV_REALDATA_DIR=${HYBRIDGV_REALDATA_DIR})
+if(TARGET makeDatabase)
+  list(APPEND python_environment HYBRIDGV_MAKE_DATABASE=$<TARGET_FILE:makeDatabase>)
+endif()
 # hybridgv_python_test(name ARGUMENTS ...): a test that says "skipped:" did not run
 function(hybridgv_python_test name)
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${ARGN})

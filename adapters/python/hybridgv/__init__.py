@@ -10,9 +10,11 @@ and PoseLib's pose, `rotation` and `position` are OpenGV's (camera -> world, the
 from ._core import version as _version
 from ._errors import FileError
 from ._localize import bearing_vectors, distort, localize, undistort
+from ._map import Map
 from ._options import Options
 from ._pose import FocalPose
-from ._result import Result
+from ._registration import register_images
+from ._result import QueryResult, Result
 from ._solvers import h13f, h32f, h51f, h70f, p3p, p4pf, p35pf, sixpt_onefocal
 
 __version__: str = _version()
@@ -20,7 +22,9 @@ __version__: str = _version()
 __all__ = [
     "FileError",
     "FocalPose",
+    "Map",
     "Options",
+    "QueryResult",
     "Result",
     "bearing_vectors",
     "distort",
@@ -32,6 +36,7 @@ __all__ = [
     "p35pf",
     "p3p",
     "p4pf",
+    "register_images",
     "sixpt_onefocal",
     "undistort",
 ]

@@ -1,10 +1,11 @@
 from typing import Any, Dict, List, Optional, Tuple
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._camera import Parts
 from ._pose import FloatArray
-from ._result import BoolArray
+from ._result import BoolArray, IntArray
 
 _PoseTuple = Tuple[FloatArray, FloatArray, float]
 
@@ -43,3 +44,46 @@ def h70f(points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: Array
 def sixpt_onefocal(
     points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike
 ) -> List[_PoseTuple]: ...
+
+class Map:
+    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
+    @staticmethod
+    def read(path: str, strict: bool) -> Map: ...
+    @staticmethod
+    def make(
+        point3D_ids: ArrayLike,
+        points: ArrayLike,
+        colors: ArrayLike,
+        cameras: Dict[int, Parts],
+        images: List[Tuple[Any, ...]],
+    ) -> Map: ...
+    def write(self, path: str, binary: bool) -> None: ...
+    def point3D_ids(self) -> IntArray: ...
+    def points(self) -> FloatArray: ...
+    def colors(self) -> NDArray[np.uint8]: ...
+    def notes(self) -> List[str]: ...
+    def cameras(self) -> Dict[int, Dict[str, Any]]: ...
+    def image_names(self) -> List[str]: ...
+    def image(self, name: str) -> Optional[Tuple[Any, ...]]: ...
+    def localize(
+        self,
+        name: str,
+        keypoints: ArrayLike,
+        matches: Dict[str, ArrayLike],
+        scores: Dict[str, ArrayLike],
+        camera: Parts,
+        camera_knowledge: str,
+        options: Dict[str, Any],
+    ) -> Dict[str, Any]: ...
+
+# Only where the package was built with SQLite and with the program.
+def register_images(
+    database_path: str,
+    input_path: str,
+    output_path: str,
+    image_names: Optional[List[str]],
+    options: Dict[str, Any],
+    use_raw_matches: bool,
+    min_matches: int,
+) -> Dict[str, Any]: ...
+def run_program(command: str, arguments: List[str]) -> int: ...

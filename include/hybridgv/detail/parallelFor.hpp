@@ -1,4 +1,5 @@
-// A loop whose rounds are shared by several threads.
+/// \file
+/// \brief A loop whose rounds are shared by several threads.
 #pragma once
 
 #include <atomic>
@@ -6,7 +7,10 @@
 #include <thread>
 #include <vector>
 
-// Calls body(0) .. body(count - 1), each once, in any order. `body` must not throw.
+namespace hybridgv {
+namespace detail {
+
+/// Calls body(0) .. body(count - 1), each once, in any order. `body` must not throw.
 template <class Body>
 void parallelFor(std::size_t count, int threads, const Body& body) {
   std::atomic<std::size_t> next{0};
@@ -18,3 +22,6 @@ void parallelFor(std::size_t count, int threads, const Body& body) {
   work();
   for (std::thread& other : others) other.join();
 }
+
+}  // namespace detail
+}  // namespace hybridgv
