@@ -161,14 +161,14 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
   return number < other.number;
 }
 
-// The best minimal solution so far, as long as no pose is believed. After that only better ones lead to another optimum, and less
-// than one wrong pose of those tried must be expected to look as good. With unknown distortion others do too: how good a solution looks
-// depends on the distortion that was drawn for it.
+// If less than one wrong pose of those tried so far is expected to look as good: it may lead to another optimum than the best pose's.
+// Or, as long as no pose is believed, if it is the best minimal solution so far.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   const bool isPromising = significance_.isPromising(candidate.logChance);
+  if (bestIsSignificant_) return isPromising;
   const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
   if (isBest) bestCandidate_ = candidate;
-  return bestIsSignificant_ ? isPromising && (isBest || lens_.isUnknown) : isPromising || isBest;
+  return isPromising || isBest;
 }
 
 void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {

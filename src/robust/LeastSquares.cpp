@@ -190,10 +190,19 @@ ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated)
   return result;
 }
 
-Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostParameters, 1> estimatedGradient(const NormalEquations& sums,
-                                                                                                Intrinsics estimated) {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostParameters, 1> result(estimated.parameters());
+ParameterVector estimatedGradient(const NormalEquations& sums, Intrinsics estimated) {
+  ParameterVector result(estimated.parameters());
   for (int k = 0; k < estimated.parameters(); ++k) result[k] = sums.gradient[kernelParameter(estimated, k)];
+  return result;
+}
+
+ParameterVector changeOf(const QueryPose& from, const QueryPose& to, Intrinsics estimated) {
+  const Eigen::AngleAxisd rotation(Eigen::Matrix3d(from.rotation.transpose() * to.rotation));
+  ParameterVector result(estimated.parameters());
+  result.head<3>() = rotation.angle() * rotation.axis();
+  result.segment<3>(3) = to.position - from.position;
+  if (estimated.focalLength) result[kPoseParameters] = std::log(to.focalLength / from.focalLength);
+  if (estimated.radial) result[estimated.parameters() - 1] = to.distortion - from.distortion;
   return result;
 }
 

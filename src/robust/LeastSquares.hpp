@@ -69,8 +69,10 @@ ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose&
 
 // Of the kernels' sums, what belongs to the parameters that are estimated.
 ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated);
-Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostParameters, 1> estimatedGradient(const NormalEquations& sums,
-                                                                                                Intrinsics estimated);
+ParameterVector estimatedGradient(const NormalEquations& sums, Intrinsics estimated);
+
+// The step of the estimated parameters that leads from one pose to another.
+ParameterVector changeOf(const QueryPose& from, const QueryPose& to, Intrinsics estimated);
 
 // A matrix over all parameters by which the kernels derive, with zeros for those that are not estimated.
 ParameterMatrix byKernelParameters(const ParameterMatrix& matrix, Intrinsics estimated);

@@ -187,15 +187,20 @@ QueryPose LocalOptimizer::refuseLevers(const LeastSquaresProblem& robust, const 
   return pose;
 }
 
-double LocalOptimizer::deviationWithoutLevers(const LeastSquaresProblem& inliers, const QueryPose& pose,
-                                              RayTreatment treatment) const {
-  if (!estimated_.focalLength) return 0;
-  treatment.refuse(leversOf(inliers, pose, treatment));
+// Without the levers. If they are right, the pose changes by about as much as the others leave open; if they hold it at a wrong place,
+// by much more than the covariance says. So the change counts as one more error of the pose.
+void LocalOptimizer::leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const {
+  const std::vector<std::size_t> levers = leversOf(inliers, result.pose, treatment);
+  treatment.refuse(levers);
   const PaddedValues narrowing = treatment.narrowing();
+  const LeastSquaresProblem others = narrowed(inliers, narrowing);
   ParameterMatrix covariance;
-  if (!invertInformation(information(narrowed(inliers, narrowing), pose), covariance))
-    return std::numeric_limits<double>::infinity();
-  return std::sqrt(varianceOfLogFocalLength(covariance, estimated_));
+  const bool isRegular = invertInformation(information(others, result.pose), covariance);
+  result.deviationWithoutLevers =
+      isRegular ? std::sqrt(varianceOfLogFocalLength(covariance, estimated_)) : std::numeric_limits<double>::infinity();
+  if (levers.empty() || !isRegular || !result.isRegular) return;
+  const ParameterVector change = changeOf(result.pose, minimize(others, result.pose, limits(kCoarse)).pose, estimated_);
+  result.covariance += change * change.transpose();
 }
 
 bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
@@ -363,7 +368,7 @@ FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   const PaddedValues narrowing = treatment.narrowing();
   const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, kinds), narrowing);
   result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, information(inliers, result.pose), result.covariance);
-  result.deviationWithoutLevers = deviationWithoutLevers(likelierInliers(result.noise, kinds), result.pose, treatment);
+  leaveOutLevers(likelierInliers(result.noise, kinds), treatment, result);
   return result;
 }
 

@@ -80,7 +80,7 @@ class LocalOptimizer {
   // Refuses levers that the other correspondences do not predict; the pose without them.
   QueryPose refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start, const Steps& steps,
                          RayTreatment& treatment) const;
-  double deviationWithoutLevers(const LeastSquaresProblem& inliers, const QueryPose& pose, RayTreatment treatment) const;
+  void leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const;
   // -2 log of the likelihood of what is estimated of the camera, before anything is seen.
   double priorCost(const QueryPose& pose) const;
   LeastSquaresOptions limits(const Steps& steps) const;

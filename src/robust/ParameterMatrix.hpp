@@ -16,6 +16,8 @@ using correspondences::Intrinsics;
 using ParameterMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, correspondences::kMostParameters,
                                       correspondences::kMostParameters>;
 
+using ParameterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, correspondences::kMostParameters, 1>;
+
 // As the public results have it: over the parameters of a FocalPose.
 using FocalPoseMatrix = std::array<double, correspondences::kFocalPoseParameters * correspondences::kFocalPoseParameters>;
 
