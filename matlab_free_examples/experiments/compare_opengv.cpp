@@ -8,10 +8,13 @@
 #include <hybridgv/sac/HybridRansac.hpp>
 #include <hybridgv/sac_problems/hybrid_pose/HybridPoseSacProblem.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <opengv/absolute_pose/CentralAbsoluteAdapter.hpp>
 #include <opengv/absolute_pose/methods.hpp>
 #include <opengv/sac/Ransac.hpp>
 #include <opengv/sac_problems/absolute_pose/AbsolutePoseSacProblem.hpp>
+#include <optional>
 
 #include "../common/CsvFile.hpp"
 #include "../common/Options.hpp"
@@ -88,6 +91,11 @@ struct CalibratedQuery {
   CentralAbsoluteAdapter adapter{bearings, points};
 };
 
+bool needsFocalLength(Solver solver) {
+  constexpr Solver those[] = {Solver::P3P, Solver::H22, Solver::H41, Solver::H60};
+  return std::find(std::begin(those), std::end(those), solver) != std::end(those);
+}
+
 struct Assumption {
   const char* name;
   double focalLength;
@@ -108,6 +116,8 @@ void compareSolvers(const Settings& settings, const HybridScene& scene, ErrorTab
     const auto add = [&](const char* name, int matches, const auto& solve) {
       table.add({"OpenGV", name, assumed.name, std::to_string(matches)}, scene.truth, [&] { return query.poses(solve()); });
     };
+    table.add({"HybridGV", "p3p", assumed.name, "3"}, scene.truth,
+              [&] { return hybridgv::absolute_pose::p3p(adapter, assumed.focalLength); });
     using namespace opengv::absolute_pose;
     add("p3p_kneip", 3, [&] { return p3p_kneip(query.adapter, three); });
     add("gp3p", 3, [&] { return gp3p(query.adapter, three); });
@@ -163,13 +173,19 @@ void compareLoops(const Settings& settings, double outlierShare, const HybridSce
     add("GP3P", AbsoluteProblem::GP3P);
     add("EPNP", AbsoluteProblem::EPNP);
   }
-  for (const Solver solver : hybridgv::allSolvers()) {
+  const auto addOurs = [&](Solver solver, const char* assumption, std::optional<double> focalLength) {
     const auto solve = [&] {
-      const auto problem = std::make_shared<HybridProblem>(adapter, solver, kMaxReprojectionErrorPx, kMaxEpipolarErrorPx);
+      const auto problem = std::make_shared<HybridProblem>(adapter, solver, kMaxReprojectionErrorPx, kMaxEpipolarErrorPx,
+                                                           settings.options.seed, focalLength);
       return runLoop(
           problem, 1.0, [](const FocalPose& pose) { return pose; }, iterations);
     };
-    table.add({"opengv::sac::Ransac", toString(solver), "unknown", outliers}, scene.truth, solve, &iterations);
+    table.add({"opengv::sac::Ransac", toString(solver), assumption, outliers}, scene.truth, solve, &iterations);
+  };
+  for (const Solver solver : hybridgv::allSolvers()) {
+    if (!needsFocalLength(solver)) addOurs(solver, "unknown", {});
+    if (needsFocalLength(solver))
+      for (const Assumption& assumed : assumptions(scene, estimated)) addOurs(solver, assumed.name, assumed.focalLength);
   }
   const auto hybrid = [&] {
     const hybridgv::sac::HybridRansacResult result = estimate(settings, adapter);

@@ -41,8 +41,9 @@ Row localizeBothWays(LocalizationProblem problem, const LocalizeArguments& argum
   if (arguments.outlierShare > 0) problem = injectOutliers(problem, arguments.outlierShare, arguments.ransac.seed);
   HybridRansacOptions options = ransacOptions(problem, arguments.ransac);
   if (arguments.queryCamera == "pinhole") options.queryCamera = hybridgv::sac::QueryCamera::Pinhole;
+  if (arguments.focalLength == "prior" && problem.reference) options.focalLengthPriorPx = problem.reference->focalLength;
   HybridRansacOptions p35pf = options;
-  p35pf.solvers = {{hybridgv::Solver::P35Pf, 1.0}};
+  p35pf.solvers = {{options.knownFocalLengthPx ? hybridgv::Solver::P3P : hybridgv::Solver::P35Pf, 1.0}};
   const Localization hybrid = localize(problem.adapter, problem.reference, options);
   const Localization reference = localize(pointsOnly(problem.adapter), problem.reference, p35pf);
   return {std::move(problem), hybrid, reference};

@@ -24,6 +24,12 @@ std::string checkSolver(const std::string& name) {
   return isKnown ? std::string() : "unknown name \"" + name + "\", valid are " + solverNames();
 }
 
+std::string checkFocalLength(const std::string& given) {
+  double focalLength = 0;
+  const bool isNumber = CLI::detail::lexical_cast(given, focalLength) && isPositive(focalLength);
+  return given == "prior" || isNumber ? std::string() : "must be positive and finite, or prior, is " + given;
+}
+
 // The map that comes with the library: beside the installed program, else among the sources.
 std::string defaultMap() {
   std::error_code error;
@@ -52,6 +58,9 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
                  "radial: the lens distortion is found too, and kept if the data speak for it; pinhole: there is none")
       ->check(CLI::IsMember({"radial", "pinhole"}))
       ->capture_default_str();
+  app.add_option("--focal-length", arguments.focalLength,
+                 "of the queries, where it is known [px]; \"prior\": the map's is known roughly, as from EXIF (default: unknown)")
+      ->check(checkFocalLength);
   arguments.matches.undistortQuery = false;
   app.add_flag("--undistort-query", arguments.matches.undistortQuery,
                "remove the distortion of a query from the map by its calibration, and use its principal point");
@@ -74,6 +83,8 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
   app.add_flag("--quiet", arguments.quiet, "no progress bar, no word about what was mended in the map");
   const int exitCode = parse(app, std::move(given));
   if (exitCode >= 0) return exitCode;
+  if (!arguments.focalLength.empty() && arguments.focalLength != "prior")
+    ransac.knownFocalLengthPx = std::stod(arguments.focalLength);
   if (arguments.solver != "all") ransac.solvers = {{hybridgv::solverFromString(arguments.solver), 1.0}};
   if (arguments.inputs.empty() && !arguments.readStandardInput) arguments.inputs = {defaultMap()};
   return -1;

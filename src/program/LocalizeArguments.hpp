@@ -17,6 +17,7 @@ struct LocalizeArguments {
   hybridgv::sfm::LocalizationProblemOptions matches;
   hybridgv::sfm::ReadOptions reading;
   hybridgv::sac::HybridRansacOptions ransac;
+  std::string focalLength;  // "", "prior" or a number of pixels
   double outlierShare = 0;
   bool json = false, readStandardInput = false, quiet = false;
 };
