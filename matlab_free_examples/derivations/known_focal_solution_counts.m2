@@ -55,11 +55,11 @@ print("three points: " | toString degree ideal(
 -- Two points and two rays: (c, s) = (cos, sin) of theta, (e, g) of psi; a ray has A e + B g + K = 0. The components of the data by u, e1, e2
 -- and b1, b2, N are free, those of k = v x a2 follow from v and a2 = (-sin, cos, 0) of gamma/2.
 T = k[c, s, e, g]
-number = () -> random(k)*1_T
+anyNumber = () -> random(k)*1_T
 -- A point of the circle, for gamma/2.
 t = random(k)
 coefficients2 = (cosHalf, sinHalf) -> (
-    (m, q, v) := (apply(3, j -> number()), apply(3, j -> number()), apply(3, j -> number()));
+    (m, q, v) := (apply(3, j -> anyNumber()), apply(3, j -> anyNumber()), apply(3, j -> anyNumber()));
     a2 := {-sinHalf, cosHalf, 0_T};
     w := {v#1*a2#2 - v#2*a2#1, v#2*a2#0 - v#0*a2#2, v#0*a2#1 - v#1*a2#0};
     L := (c*cosHalf - s*sinHalf);
