@@ -1,7 +1,7 @@
 include(CMakePackageConfigHelpers)
 
 # Component runtime: what a program needs to run; development: what it needs to be built; colmap: the library that needs SQLite;
-# program: the program hybridgv.
+# program: the program hybridgv; python: the Python module.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hybridgv)
 install(TARGETS hybridgv EXPORT hybridgvTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development
@@ -37,6 +37,13 @@ if(HYBRIDGV_WITH_PROGRAM)
   if(HYBRIDGV_MAN_PAGES)
     install(FILES ${HYBRIDGV_MAN_PAGES} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
   endif()
+endif()
+if(HYBRIDGV_WITH_PYTHON)
+  set(python_package_dir ${HYBRIDGV_PYTHON_DIR}/hybridgv)
+  install(TARGETS hybridgv_python LIBRARY DESTINATION ${python_package_dir} COMPONENT python)
+  install(FILES ${HYBRIDGV_PYTHON_FILES} DESTINATION ${python_package_dir} COMPONENT python)
+  file(RELATIVE_PATH libraries_from_python /${python_package_dir} /${CMAKE_INSTALL_LIBDIR})
+  hybridgv_find_libraries_at(hybridgv_python "/${libraries_from_python}")
 endif()
 foreach(root ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/adapters/arrays/include
              ${PROJECT_SOURCE_DIR}/adapters/opengv/include ${PROJECT_SOURCE_DIR}/adapters/sfm/include

@@ -4,6 +4,7 @@
 #   libhybridgv-dev   headers, CMake and pkg-config files; needs Eigen, and OpenGV's headers for the bridge
 #   libhybridgv-colmap0.1   the shared library that reads COLMAP's databases, where SQLite is found
 #   hybridgv          the program with its man pages and completion, where CLI11 and nlohmann_json are found
+#   python3-hybridgv  the Python module, where pybind11 and numpy are found
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hybridgv)
 set(CPACK_PACKAGE_VENDOR "HybridGV developers")
@@ -30,6 +31,24 @@ endif()
 if(HYBRIDGV_WITH_PROGRAM)
   list(APPEND CPACK_COMPONENTS_ALL program)
   list(APPEND CPACK_COMPONENT_PROGRAM_DEPENDS runtime)
+endif()
+if(HYBRIDGV_WITH_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_COMPONENT_PYTHON_DEPENDS runtime)
+  if(HYBRIDGV_WITH_COLMAP)
+    list(APPEND CPACK_COMPONENT_PYTHON_DEPENDS colmap)
+  endif()
+  math(EXPR next_python_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-hybridgv)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python_minor}), python3-numpy (>= 1:${Python3_NumPy_VERSION})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-h5py)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/adapters/python/debian/postinst
+                                                ${PROJECT_SOURCE_DIR}/adapters/python/debian/prerm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module: localization of images with unknown focal length; bridges to hloc and PoseLib.")
 endif()
 
 set(soname_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

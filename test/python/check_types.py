@@ -14,7 +14,7 @@ package = os.path.dirname(importlib.util.find_spec("hybridgv").origin)
 with tempfile.TemporaryDirectory() as cache:
     environment = dict(os.environ, MYPY_CACHE_DIR=cache, MYPYPATH=os.path.dirname(package))
     environment.pop("PYTHONPATH")  # mypy finds the package by its own path
-    mypy = [sys.executable, "-m", "mypy", "--strict", "--python-version", "3.11", package, *sys.argv[1:]]
+    mypy = [sys.executable, "-m", "mypy", "--strict", "--scripts-are-modules", package, *sys.argv[1:]]
     strict = subprocess.run(mypy, env=environment).returncode
     environment["PYTHONPATH"] = os.environ["PYTHONPATH"]
     allowed = os.path.join(cache, "allowed")

@@ -33,5 +33,10 @@ def main(arguments: List[str]) -> int:
         return 1
 
 
+def run() -> int:
+    """The program of a wheel."""
+    return main(sys.argv[1:])
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run())
