@@ -46,7 +46,7 @@ if(HYBRIDGV_WITH_PYTHON)
   hybridgv_find_libraries_at(hybridgv_python "/${libraries_from_python}")
 endif()
 foreach(root ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/adapters/arrays/include
-             ${PROJECT_SOURCE_DIR}/adapters/opengv/include ${PROJECT_SOURCE_DIR}/adapters/sfm/include
+             ${PROJECT_SOURCE_DIR}/adapters/opengv/include ${PROJECT_SOURCE_DIR}/adapters/report/include ${PROJECT_SOURCE_DIR}/adapters/sfm/include
              ${colmap_headers} ${PROJECT_BINARY_DIR}/include)
   install(DIRECTORY ${root}/hybridgv DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 endforeach()

@@ -2,6 +2,7 @@
 
 #include <hybridgv/adapters/sfm/ransacOptions.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "LocalizeArguments.hpp"
@@ -49,14 +50,25 @@ Row localizeBothWays(LocalizationProblem problem, const LocalizeArguments& argum
   return {std::move(problem), hybrid, reference};
 }
 
+// A page shows one map.
+void checkPage(const LocalizeArguments& arguments, const std::vector<Query>& queries) {
+  const auto isOfThatMap = [&](const Query& query) { return query.map && query.map == queries.front().map; };
+  if (arguments.page.areWanted() && !std::all_of(queries.begin(), queries.end(), isOfThatMap))
+    throw std::invalid_argument("--html_path and --ply_path show the images of one map");
+}
+
 void run(const LocalizeArguments& arguments) {
   const std::vector<Query> queries = collectQueries(arguments);
   if (queries.empty()) throw std::invalid_argument("nothing to localize");
+  checkPage(arguments, queries);
+  std::vector<hybridgv::report::ReportedImage> reported;
   ProgressBar progress(queries.size(), !arguments.quiet);
   Summary hybrid, pointsOnly;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     progress.show(i);
-    const Row row = localizeBothWays(queries[i](), arguments);
+    const Row row = localizeBothWays(queries[i].make(), arguments);
+    if (arguments.page.areWanted())
+      reported.push_back(hybridgv::report::reportedImage(*queries[i].map, queries[i].image, row.problem, row.hybrid.result));
     hybrid.add(row.hybrid);
     pointsOnly.add(row.pointsOnly);
     progress.clear();
@@ -67,6 +79,7 @@ void run(const LocalizeArguments& arguments) {
       printRow(row);
     flushOutput();
   }
+  if (arguments.page.areWanted()) writePageFiles(arguments.page, *queries.front().map, reported);
   if (arguments.json) return;
   hybrid.print("hybrid");
   pointsOnly.print("2D-3D only");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 #include "common/CommandLine.hpp"
 
@@ -78,6 +79,7 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
             isNotNegativeInteger);
   addNumber(app, "--max-iterations", ransac.maxIterations, "largest number of samples", "a positive integer", isCount);
   addNumber(app, "--success-probability", ransac.successProbability, "when to stop sampling", "between 0 and 1", isProbability);
+  addPageOptions(app, arguments.page);
   app.add_flag("--json", arguments.json, "one JSON object per query and line instead of the table");
   app.add_flag("--strict", arguments.reading.strict, "refuse maps with faults that are mended otherwise");
   app.add_flag("--quiet", arguments.quiet, "no progress bar, no word about what was mended in the map");
@@ -85,6 +87,8 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
   if (exitCode >= 0) return exitCode;
   if (!arguments.focalLength.empty() && arguments.focalLength != "prior")
     ransac.knownFocalLengthPx = std::stod(arguments.focalLength);
+  const std::string contradiction = findContradiction(arguments.page);
+  if (!contradiction.empty()) throw std::invalid_argument(contradiction);
   if (arguments.solver != "all") ransac.solvers = {{hybridgv::solverFromString(arguments.solver), 1.0}};
   if (arguments.inputs.empty() && !arguments.readStandardInput) arguments.inputs = {defaultMap()};
   return -1;

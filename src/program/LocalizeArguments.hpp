@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "PageFiles.hpp"
+
 namespace program {
 
 struct LocalizeArguments {
@@ -18,6 +20,7 @@ struct LocalizeArguments {
   hybridgv::sfm::ReadOptions reading;
   hybridgv::sac::HybridRansacOptions ransac;
   std::string focalLength;  // "", "prior" or a number of pixels
+  PageFiles page;
   double outlierShare = 0;
   bool json = false, readStandardInput = false, quiet = false;
 };

@@ -55,7 +55,8 @@ std::vector<Query> queriesOfMap(const std::string& path, const LocalizeArguments
       if (canBeQuery(*map, i, arguments)) images.push_back(i);
   std::vector<Query> queries;
   for (const std::size_t image : images)
-    queries.emplace_back([map, image, options = arguments.matches] { return makeLocalizationProblem(*map, image, options); });
+    queries.push_back(
+        {[map, image, options = arguments.matches] { return makeLocalizationProblem(*map, image, options); }, map, image});
   return queries;
 }
 
@@ -75,12 +76,12 @@ std::vector<Query> collectQueries(const LocalizeArguments& arguments) {
   for (const std::string& map : maps)
     for (Query& query : queriesOfMap(map, arguments, names)) queries.push_back(std::move(query));
   for (const std::string& file : files)
-    queries.emplace_back([file, &arguments] {
+    queries.push_back({[file, &arguments] {
       hybridgv::sfm::ReadReport report;
       hybridgv::sfm::LocalizationProblem problem = hybridgv::sfm::readProblem(file, arguments.reading, &report);
       printReport(report, arguments);
       return problem;
-    });
+    }});
   return queries;
 }
 

@@ -4,6 +4,7 @@
 #include <hybridgv/adapters/sfm/LocalizationProblem.hpp>
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "LocalizeArguments.hpp"
@@ -11,7 +12,12 @@
 namespace program {
 
 // A query that is made when its turn comes.
-using Query = std::function<hybridgv::sfm::LocalizationProblem()>;
+struct Query {
+  std::function<hybridgv::sfm::LocalizationProblem()> make;
+  // Where it comes from; null: a file of its own.
+  std::shared_ptr<const hybridgv::sfm::SparseModel> map = nullptr;
+  std::size_t image = 0;
+};
 
 // std::invalid_argument for names that are nobody's.
 std::vector<Query> collectQueries(const LocalizeArguments& arguments);

@@ -115,9 +115,18 @@ class Registration {
       else
         print([&] { std::printf("%s\n", line.c_str()); });
     }
+    if (arguments_.page.areWanted()) reported_.push_back(reported(outcome));
     table_.add(outcome.name, outcome.localization.get(), outcome.failure);
     for (const std::string& note : outcome.query.notes) table_.note(note);
     if (!arguments_.quiet && arguments_.json != "-") print([&] { table_.printLast(); });
+  }
+
+  hybridgv::report::ReportedImage reported(const Outcome& outcome) const {
+    if (outcome.localization) return hybridgv::report::reportedImage(map_, outcome.query, *outcome.localization);
+    hybridgv::report::ReportedImage failed;
+    failed.name = outcome.name;
+    failed.reason = outcome.failure;
+    return failed;
   }
 
   template <class Print>
@@ -132,6 +141,7 @@ class Registration {
       (arguments_.outputType == "BIN" ? writeColmapBinary : writeColmapText)(arguments_.output, result);
     if (results_) results_->commit();
     if (json_) json_->commit();
+    writePageFiles(arguments_.page, map_, reported_);
     if (!arguments_.quiet) table_.printSummary(stderr, skipped_, interrupted != 0 ? names_.size() : 0);
   }
 
@@ -142,6 +152,7 @@ class Registration {
   std::size_t skipped_ = 0;
   std::unique_ptr<OutputFile> results_, json_;
   std::unique_ptr<ProgressBar> progress_;
+  std::vector<hybridgv::report::ReportedImage> reported_;
   RegistratorTable table_;
 };
 

@@ -26,6 +26,7 @@ void addPaths(CLI::App& app, RegistratorArguments& a, std::string& project) {
       ->capture_default_str();
   app.add_option("--results_path", a.results, "also write the poses to this file: NAME QW QX QY QZ TX TY TZ a line");
   app.add_option("--json_path", a.json, "also write one JSON object per image and line; - is the standard output");
+  addPageOptions(app, a.page);
 }
 
 void addMapperOptions(CLI::App& app, RegistratorArguments& a, int& minMatches, int& threads) {
@@ -67,13 +68,13 @@ void addOwnOptions(CLI::App& app, RegistratorArguments& a, std::string& matches)
 // Empty, or what does not fit together.
 std::string findContradiction(const RegistratorArguments& a) {
   namespace fs = std::filesystem;
-  if (a.output.empty() && a.results.empty() && a.json.empty())
-    return "--output_path is required (or --results_path, or --json_path)";
+  if (a.output.empty() && a.results.empty() && a.json.empty() && !a.page.areWanted())
+    return "--output_path is required (or --results_path, --json_path, --html_path, --ply_path)";
   if (!(a.registration.minFocalRatio < a.registration.maxFocalRatio))
     return "--Mapper.min_focal_length_ratio must be below --Mapper.max_focal_length_ratio";
   if (!a.output.empty() && a.outputType == "TXT" && fs::exists(fs::path(a.output) / "images.bin"))
     return "--output_type TXT: " + a.output + " holds a binary model, which would hide the one in text";
-  return {};
+  return findContradiction(a.page);
 }
 
 }  // namespace

@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "PageFiles.hpp"
+
 namespace program {
 
 struct RegistratorArguments {
   std::string database, input, output, imageList, results, json;
+  PageFiles page;
   std::string outputType = "BIN";
   hybridgv::sfm::DatabaseQueryOptions queries;
   hybridgv::sfm::RegistrationOptions registration;
