@@ -7,6 +7,8 @@
   const bytesOf = text => Uint8Array.from(atob(text || ""), c => c.charCodeAt(0));
   const floatsOf = text => new Float32Array(bytesOf(text).buffer);
   const positions = floatsOf(data.points), colours = bytesOf(data.colours);
+  // Readers of models without colours set them to black.
+  if (colours.every(value => value === 0)) colours.fill(200);
   const up = [...floatsOf(data.up)];
   const localized = data.images.filter(image => image.success);
   for (const image of localized) image.pose = floatsOf(image.pose);
@@ -21,8 +23,7 @@
 
   // ---- The viewer's camera: x to the right, y down, z forward, as the cameras of the map.
   const east = unit(cross(up, Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0])), north = cross(up, east);
-  const start = () => ({ target: [0, 0, 0], distance: 3 * data.radius, yaw: 0.6, pitch: -0.5, through: null });
-  let view = start();
+  const view = { target: [0, 0, 0], distance: 3 * data.radius, yaw: 0.6, pitch: -0.35, through: null };
   // At first from where the map's cameras look on the whole: most of them show what they have in front of them.
   const mapCameras = floatsOf(data.mapCameras), queryCameras = floatsOf(data.queryCameras);
   (() => {
@@ -42,6 +43,35 @@
     const right = unit(cross(forward, up));
     return { eye: add(view.target, forward, -view.distance), right, down: cross(forward, right), forward, tangent: null };
   };
+  const kTangent = 0.4;  // of half the angle of view, of the canvas's shorter side
+  // The cameras, and the points that are not far away from all others.
+  const places = (() => {
+    const found = [];
+    for (const frusta of [mapCameras, queryCameras]) for (let i = 0; i < frusta.length; i += 3) found.push([...frusta.subarray(i, i + 3)]);
+    const step = 3 * Math.ceil(positions.length / 3 / 2000);
+    for (let i = 0; i < positions.length; i += step) {
+      const place = [...positions.subarray(i, i + 3)];
+      if (Math.hypot(...place) <= data.radius) found.push(place);
+    }
+    return found;
+  })();
+  const showAll = () => {
+    view.through = null;
+    if (places.length === 0) return;
+    const { right, down, forward } = orbitCamera();
+    const middle = axis => {
+      let low = Infinity, high = -Infinity;
+      for (const place of places) { const at = dot(place, axis); low = Math.min(low, at); high = Math.max(high, at); }
+      return scaled(axis, (low + high) / 2);
+    };
+    view.target = add(add(middle(right), middle(down)), middle(forward));
+    view.distance = 0.1 * data.radius;
+    for (const place of places) {
+      const p = add(place, view.target, -1);
+      const side = Math.max(Math.abs(dot(p, right)), Math.abs(dot(p, down)));
+      view.distance = Math.max(view.distance, 1.05 * side / kTangent - dot(p, forward));
+    }
+  };
   const imageCamera = image => {
     const p = image.pose, f = image.focalLength;
     return { eye: [...p.subarray(0, 3)], right: [...p.subarray(3, 6)], down: [...p.subarray(6, 9)], forward: [...p.subarray(9, 12)],
@@ -50,7 +80,7 @@
   // Tangents of half the angles of view in x and y.
   const tangents = (camera, width, height) => {
     const wide = width / height;
-    if (!camera.tangent) return wide > 1 ? [0.4 * wide, 0.4] : [0.4, 0.4 / wide];
+    if (!camera.tangent) return wide > 1 ? [kTangent * wide, kTangent] : [kTangent, kTangent / wide];
     const y = Math.max(camera.tangent[1], camera.tangent[0] / wide);
     return [y * wide, y];
   };
@@ -114,6 +144,7 @@
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return null;
     gl.useProgram(program);
     gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);  // the chosen camera is drawn over itself
     const place = gl.getAttribLocation(program, "place"), colour = gl.getAttribLocation(program, "colour");
     const matrix = gl.getUniformLocation(program, "matrix"), size = gl.getUniformLocation(program, "size");
     const bufferOf = values => {
@@ -281,7 +312,7 @@
     if (zooms) view.distance *= zooms;
     redraw(false);
   });
-  element("whole").addEventListener("click", () => { view = { ...start(), yaw: view.yaw }; redraw(true); });
+  element("whole").addEventListener("click", () => { showAll(); redraw(true); });
   element("through").addEventListener("click", () => lookThrough(chosen));
   element("size").addEventListener("input", () => redraw(false));
   window.addEventListener("resize", () => redraw(false));
@@ -433,6 +464,7 @@
   if (data.images.some(image => image.number2d2d + image.number2d3d > 0 && image.marks2d3d === undefined))
     notes.push("Of some images the correspondences are not in this page, because all together they are too many.");
   element("notes").textContent = notes.join(" ");
+  showAll();
   if (data.images.length > 0) choose(localized[0] || data.images[0]);
   redraw(true);
 })();

@@ -121,7 +121,7 @@ class Registration {
     if (!arguments_.quiet && arguments_.json != "-") print([&] { table_.printLast(); });
   }
 
-  hybridgv::report::ReportedImage reported(const Outcome& outcome) const {
+  hybridgv::report::ReportedImage reported(const RegisteredImage& outcome) const {
     if (outcome.localization) return hybridgv::report::reportedImage(map_, outcome.query, *outcome.localization);
     hybridgv::report::ReportedImage failed;
     failed.name = outcome.name;
