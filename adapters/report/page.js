@@ -188,7 +188,7 @@
 
   // ---- The same without WebGL: nearer points hide farther ones only by their order.
   const plainPainter = () => {
-    const context = canvas.getContext("2d");
+    const context = canvas.getContext("2d", { willReadFrequently: true });
     const css = shade => "rgb(" + shade.map(v => Math.round(255 * v)).join(",") + ")";
     const place = p => [(p[0] + 1) / 2 * canvas.width, (1 - p[1]) / 2 * canvas.height];
     return {
@@ -217,7 +217,7 @@
       pixels: () => context.getImageData(0, 0, canvas.width, canvas.height).data
     };
   };
-  const painter = (data.plain ? null : webglPainter()) || plainPainter();
+  const painter = webglPainter() || plainPainter();
 
   // What was drawn, for whoever looks at the page without eyes: the number of pixels that are not background, and a sum that changes with
   // the picture.
@@ -232,20 +232,25 @@
     document.documentElement.dataset.drawn = drawn;
     document.documentElement.dataset.sum = sum;
   };
-  let isWaiting = false, wantsCount = false;
-  const redraw = count => {
-    wantsCount = wantsCount || count;
+  const draw = () => {
+    const ratio = window.devicePixelRatio || 1;
+    canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
+    canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+    painter.draw(matrixOf(currentCamera(), canvas.width, canvas.height));
+  };
+  // While something moves, once for each picture of the screen.
+  let isWaiting = false;
+  const redrawSoon = () => {
     if (isWaiting) return;
     isWaiting = true;
     requestAnimationFrame(() => {
       isWaiting = false;
-      const ratio = window.devicePixelRatio || 1;
-      canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
-      canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
-      painter.draw(matrixOf(currentCamera(), canvas.width, canvas.height));
-      if (wantsCount) countPixels();
-      wantsCount = false;
+      draw();
     });
+  };
+  const redraw = () => {
+    draw();
+    countPixels();
   };
 
   // ---- Turning, moving, zooming, choosing.
@@ -265,7 +270,7 @@
     if (!image || !image.success) return;
     choose(image);
     view.through = image;
-    redraw(true);
+    redraw();
   };
   let drag = null;
   canvas.addEventListener("pointerdown", event => {
@@ -286,7 +291,7 @@
       view.yaw -= dx * 0.006;
       view.pitch = Math.max(-1.55, Math.min(1.55, view.pitch - dy * 0.006));
     }
-    redraw(false);
+    redrawSoon();
   });
   canvas.addEventListener("pointerup", event => {
     const image = drag && drag.far < 4 && !drag.moves ? nearestImage(event) : null;
@@ -300,7 +305,7 @@
     event.preventDefault();
     view.through = null;
     view.distance *= Math.exp(Math.sign(event.deltaY) * 0.12);
-    redraw(false);
+    redrawSoon();
   }, { passive: false });
   canvas.addEventListener("keydown", event => {
     const turns = { ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[event.key];
@@ -310,12 +315,12 @@
     view.through = null;
     if (turns) [view.yaw, view.pitch] = [view.yaw + turns[0], Math.max(-1.55, Math.min(1.55, view.pitch + turns[1]))];
     if (zooms) view.distance *= zooms;
-    redraw(false);
+    redrawSoon();
   });
-  element("whole").addEventListener("click", () => { showAll(); redraw(true); });
+  element("whole").addEventListener("click", () => { showAll(); redraw(); });
   element("through").addEventListener("click", () => lookThrough(chosen));
-  element("size").addEventListener("input", () => redraw(false));
-  window.addEventListener("resize", () => redraw(false));
+  element("size").addEventListener("input", () => redrawSoon());
+  window.addEventListener("resize", () => redrawSoon());
 
   // ---- The chosen image. Names are somebody's text: they are never parsed.
   const make = (name, text, className) => {
@@ -406,7 +411,7 @@
     showNumbers(image);
     showShares(image);
     for (const row of element("images").querySelectorAll("tbody tr")) row.classList.toggle("chosen", data.images[row.dataset.index] === image);
-    redraw(true);
+    redraw();
   };
   for (const id of ["showPoints", "showRays", "showOutliers", "showSegments"])
     element(id).addEventListener("change", () => { if (chosen) drawPicture(chosen); });
@@ -466,5 +471,5 @@
   element("notes").textContent = notes.join(" ");
   showAll();
   if (data.images.length > 0) choose(localized[0] || data.images[0]);
-  redraw(true);
+  redraw();
 })();
