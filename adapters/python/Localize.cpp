@@ -120,18 +120,19 @@ Rays raysOf(const py::object& pixels, const py::object& directions, const py::ob
   return rays;
 }
 
-NoncentralHybridAdapter adapterOf(const ImagePoints& raysPoints, const Rays& rays, const ImagePoints& points,
-                                  const Vectors& positions) {
+// Takes what it is given: there may be many correspondences.
+NoncentralHybridAdapter adapterOf(ImagePoints& rayPoints, Rays& rays, ImagePoints& points, Vectors positions) {
   std::vector<int> cameras;
-  for (const std::size_t i : raysPoints.kept) cameras.push_back(rays.rig.cameras[i]);
+  cameras.reserve(rayPoints.kept.size());
+  for (const std::size_t i : rayPoints.kept) cameras.push_back(rays.rig.cameras[i]);
   std::vector<Eigen::Matrix3d> rotations(rays.rig.origins.size(), Eigen::Matrix3d::Identity());
-  return {raysPoints.points,
-          selected(rays.directions, raysPoints.kept),
-          cameras,
-          rays.rig.origins,
-          rotations,
-          points.points,
-          selected(positions, points.kept)};
+  return {std::move(rayPoints.points),
+          selected(std::move(rays.directions), rayPoints.kept),
+          std::move(cameras),
+          std::move(rays.rig.origins),
+          std::move(rotations),
+          std::move(points.points),
+          selected(std::move(positions), points.kept)};
 }
 
 bool isPinhole(sfm::CameraModel model) { return model == sfm::CameraModel::SimplePinhole || model == sfm::CameraModel::Pinhole; }
@@ -160,11 +161,11 @@ py::dict localize(const py::object& points2D, const py::object& points3D, const 
   const sac::HybridRansacOptions options = searchOptions(optionsOf(optionDict), camera, knowledge);
   const sfm::QueryCamera queryCamera(camera, knowledge);
   const DoubleArray pixels = rowsOf("points2D", points2D, 2);
-  const Vectors positions = vectorsOf(rowsOf("points3D", points3D, 3));
+  Vectors positions = vectorsOf(rowsOf("points3D", points3D, 3));
   checkCount("points3D", static_cast<py::ssize_t>(positions.size()), "points2D", pixels.shape(0));
-  const Rays rays = raysOf(points2DRays, rayDirections, rayOrigins, cameraIndices, rigFocalLengths);
-  const ImagePoints points = imagePointsOf(pixels, queryCamera), rayPoints = imagePointsOf(rays.pixels, queryCamera);
-  NoncentralHybridAdapter adapter = adapterOf(rayPoints, rays, points, positions);
+  Rays rays = raysOf(points2DRays, rayDirections, rayOrigins, cameraIndices, rigFocalLengths);
+  ImagePoints points = imagePointsOf(pixels, queryCamera), rayPoints = imagePointsOf(rays.pixels, queryCamera);
+  NoncentralHybridAdapter adapter = adapterOf(rayPoints, rays, points, std::move(positions));
   adapter.setRigFocalLengths(rays.rig.focalLengths);
   adapter.setWeights(selectedWeights("weights_rays", weightsRays, rayPoints), selectedWeights("weights", weights, points));
   sac::HybridRansacResult result;

@@ -99,6 +99,27 @@ py::list p3p(const py::object& points2D, const py::object& points3D, double foca
   return solve(adapterOf({}, pointsOf(points2D, points3D)), solver);
 }
 
+using CalibratedSolver = FocalPoses (*)(const hybrid_pose::HybridAdapterBase&, double);
+
+void addCalibratedHybridSolver(py::module_& module, const char* name, CalibratedSolver solver) {
+  const auto call = [solver](const py::object& points2D, const py::object& points3D, const py::object& points2DRays,
+                             const py::object& directions, const py::object& origins, double focalLength) {
+    return solve(adapterOf(raysOf(points2DRays, directions, origins), pointsOf(points2D, points3D)),
+                 [=](const NoncentralHybridAdapter& adapter) { return solver(adapter, focalLength); });
+  };
+  module.def(name, call, py::arg("points2D"), py::arg("points3D"), py::arg("points2D_rays"), py::arg("ray_directions"),
+             py::arg("ray_origins"), py::arg("focal_length"));
+}
+
+void addCalibratedRaySolver(py::module_& module, const char* name, CalibratedSolver solver) {
+  const auto call = [solver](const py::object& points2DRays, const py::object& directions, const py::object& origins,
+                             double focalLength) {
+    return solve(adapterOf(raysOf(points2DRays, directions, origins), {}),
+                 [=](const NoncentralHybridAdapter& adapter) { return solver(adapter, focalLength); });
+  };
+  module.def(name, call, py::arg("points2D_rays"), py::arg("ray_directions"), py::arg("ray_origins"), py::arg("focal_length"));
+}
+
 }  // namespace
 
 void addSolvers(py::module_& module) {
@@ -108,6 +129,10 @@ void addSolvers(py::module_& module) {
   addHybridSolver(module, "h13f", &hybrid_pose::h13f);
   addHybridSolver(module, "h32f", &hybrid_pose::h32f);
   addHybridSolver(module, "h51f", &hybrid_pose::h51f);
+  addCalibratedHybridSolver(module, "h22", &hybrid_pose::h22);
+  addCalibratedHybridSolver(module, "h41", &hybrid_pose::h41);
+  addCalibratedRaySolver(module, "h60", &hybrid_pose::h60);
+  addCalibratedRaySolver(module, "fivept", &relative_pose::fivept);
   addRaySolver(module, "h70f", &hybrid_pose::h70f);
   addRaySolver(module, "sixpt_onefocal", &relative_pose::sixpt_onefocal);
 }

@@ -1,5 +1,7 @@
 """The minimal solvers on arrays: the truth is among the solutions, and all of them satisfy the equations."""
 
+import re
+
 import hybridgv
 import numpy as np
 import pytest
@@ -44,10 +46,38 @@ def test_p3p():
     assert any(is_truth(pose, scene) for pose in poses)
 
 
+@pytest.mark.parametrize("name, points, rays, centers", [("h22", 2, 2, 2), ("h41", 1, 4, 1), ("h60", 0, 6, 2)])
+def test_known_focal_length(name, points, rays, centers):
+    found = 0
+    for seed in range(10):
+        scene, arrays = minimal(points, rays, seed=seed, centers=centers)
+        if name == "h60":  # five rays of one centre, one of another
+            scene = make_scene(seed, points=1, rays=40, wrong=0, noise=0, centers=2)
+            mine, other = np.flatnonzero(scene.camera_idxs == 0)[:5], np.flatnonzero(scene.camera_idxs == 1)[:1]
+            chosen = np.concatenate((mine, other))
+            arrays = [scene.points2D_rays[chosen] - CENTER, scene.ray_directions[chosen], scene.ray_origins[chosen]]
+        poses = getattr(hybridgv, name)(*arrays, scene.focal_length)
+        found += any(is_truth(pose, scene) for pose in poses)
+    assert found >= 9
+
+
 def test_sixpt_onefocal():
     scene, arrays = minimal(0, 6, centers=1)
     poses = hybridgv.sixpt_onefocal(*arrays)
     assert any(abs(pose.focal_length / scene.focal_length - 1) < 1e-4 for pose in poses)
+
+
+def test_fivept():
+    scene, arrays = minimal(0, 5, centers=1)
+    poses = hybridgv.fivept(*arrays, scene.focal_length)
+    assert any(np.abs(pose.R - scene.cam_from_world[:, :3]).max() < 1e-4 for pose in poses)
+
+
+def test_every_solver_of_the_library_is_a_function(scene, camera):
+    with pytest.raises(ValueError) as caught:
+        hybridgv.localize(*scene.arrays, camera=camera, options={"solvers": ["no solver"]})
+    names = re.findall(r"\b[ph]\d+p?f?\b", str(caught.value))
+    assert len(names) >= 10 and all(callable(getattr(hybridgv, name)) for name in names)
 
 
 @pytest.mark.parametrize("name", SOLVERS)

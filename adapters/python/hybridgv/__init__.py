@@ -15,7 +15,7 @@ from ._options import Options
 from ._pose import FocalPose
 from ._registration import register_images
 from ._result import QueryResult, Result
-from ._solvers import h13f, h32f, h51f, h70f, p3p, p4pf, p35pf, sixpt_onefocal
+from ._solvers import fivept, h13f, h22, h32f, h41, h51f, h60, h70f, p3p, p4pf, p35pf, sixpt_onefocal
 
 __version__: str = _version()
 
@@ -28,9 +28,13 @@ __all__ = [
     "Result",
     "bearing_vectors",
     "distort",
+    "fivept",
     "h13f",
+    "h22",
     "h32f",
+    "h41",
     "h51f",
+    "h60",
     "h70f",
     "localize",
     "p35pf",

@@ -41,6 +41,28 @@ def h51f(
     points2D: ArrayLike, points3D: ArrayLike, points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike
 ) -> List[_PoseTuple]: ...
 def h70f(points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike) -> List[_PoseTuple]: ...
+def h22(
+    points2D: ArrayLike,
+    points3D: ArrayLike,
+    points2D_rays: ArrayLike,
+    ray_directions: ArrayLike,
+    ray_origins: ArrayLike,
+    focal_length: float,
+) -> List[_PoseTuple]: ...
+def h41(
+    points2D: ArrayLike,
+    points3D: ArrayLike,
+    points2D_rays: ArrayLike,
+    ray_directions: ArrayLike,
+    ray_origins: ArrayLike,
+    focal_length: float,
+) -> List[_PoseTuple]: ...
+def h60(
+    points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike, focal_length: float
+) -> List[_PoseTuple]: ...
+def fivept(
+    points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike, focal_length: float
+) -> List[_PoseTuple]: ...
 def sixpt_onefocal(
     points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike
 ) -> List[_PoseTuple]: ...

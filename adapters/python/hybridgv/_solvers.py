@@ -73,6 +73,44 @@ def h70f(points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: Array
     return _poses(_core.h70f(points2D_rays, ray_directions, ray_origins))
 
 
+def h22(
+    points2D: ArrayLike,
+    points3D: ArrayLike,
+    points2D_rays: ArrayLike,
+    ray_directions: ArrayLike,
+    ray_origins: ArrayLike,
+    focal_length: float,
+) -> List[FocalPose]:
+    """Pose of two points, (2, 2) and (2, 3), and two rays, (2, 2), (2, 3), (2, 3), for a known focal length; at most 16."""
+    return _poses(_core.h22(points2D, points3D, points2D_rays, ray_directions, ray_origins, focal_length))
+
+
+def h41(
+    points2D: ArrayLike,
+    points3D: ArrayLike,
+    points2D_rays: ArrayLike,
+    ray_directions: ArrayLike,
+    ray_origins: ArrayLike,
+    focal_length: float,
+) -> List[FocalPose]:
+    """Pose of one point, (1, 2) and (1, 3), and four rays of one centre, (4, 2), (4, 3), (4, 3), for a known focal length; at most 10."""
+    return _poses(_core.h41(points2D, points3D, points2D_rays, ray_directions, ray_origins, focal_length))
+
+
+def h60(
+    points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike, focal_length: float
+) -> List[FocalPose]:
+    """Pose of six rays, (6, 2), (6, 3), (6, 3), five of them of one centre, for a known focal length; at most 10."""
+    return _poses(_core.h60(points2D_rays, ray_directions, ray_origins, focal_length))
+
+
+def fivept(
+    points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike, focal_length: float
+) -> List[FocalPose]:
+    """Relative pose of five rays of one centre, (5, 2), (5, 3), (5, 3), for a known focal length; the distance is arbitrary."""
+    return _poses(_core.fivept(points2D_rays, ray_directions, ray_origins, focal_length))
+
+
 def sixpt_onefocal(points2D_rays: ArrayLike, ray_directions: ArrayLike, ray_origins: ArrayLike) -> List[FocalPose]:
     """Relative pose and focal length of six rays of one centre, (6, 2), (6, 3), (6, 3); the distance is arbitrary. At most 9."""
     return _poses(_core.sixpt_onefocal(points2D_rays, ray_directions, ray_origins))
