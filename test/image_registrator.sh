@@ -31,6 +31,13 @@ awk 'NR == FNR { for (i = 4; i <= 7; ++i) q[$1, i] = $i; next }
   truth.txt poses.txt || fail "a rotation is wrong"
 for file in cameras images points3D; do cmp "map/$file.bin" "original/$file.bin" || fail "the input was changed"; done
 
+# A page alone is an output too; an image that fails is on it with the reason.
+register --html_path page.html --ply_path map.ply --Mapper.abs_pose_min_num_inliers 100000 --quiet || fail "a page"
+[ "$(grep -o '"success":false,"reason":"[^"]*100000' page.html | wc -l)" = 8 ] || fail "a page: $(grep -o '"reason":"[^"]*"' page.html)"
+head -1 map.ply | grep -q '^ply$' || fail "a point cloud"
+register --html_path page.html --image_path nowhere 2> error
+[ $? = 2 ] && grep -q 'is no folder' error || fail "a folder of images that is not there: $(cat error)"
+
 # What is there already is skipped; the output may be the input.
 cp -r new/out again
 "$program" image_registrator --database_path database.db --input_path again --output_path again > table 2> summary || fail "again"

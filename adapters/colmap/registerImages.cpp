@@ -137,6 +137,14 @@ class Registration {
 
 bool RegisteredImage::success() const { return localization && localization->success; }
 
+report::ReportedImage reportedImage(const SparseModel& map, const RegisteredImage& image) {
+  if (image.localization) return report::reportedImage(map, image.query, *image.localization);
+  report::ReportedImage failed;
+  failed.name = image.name;
+  failed.reason = image.failure;
+  return failed;
+}
+
 void registerImages(const SparseModel& map, DatabaseQueries& queries, const std::vector<std::string>& names,
                     const RegistrationOptions& options, const std::function<void(RegisteredImage&)>& use,
                     const RegistrationWatch& watch) {

@@ -1,6 +1,7 @@
 // register_images(): images of a COLMAP database into a map.
 #include <pybind11/stl.h>
 #include <hybridgv/adapters/colmap/registerImages.hpp>
+#include <hybridgv/adapters/report/Page.hpp>
 #include <hybridgv/adapters/sfm/ModelFiles.hpp>
 #include <hybridgv/adapters/sfm/addToModel.hpp>
 
@@ -24,7 +25,7 @@ py::object valuesOf(const sfm::SparseModel& map, const sfm::RegisteredImage& ima
 // Without an output folder nothing is written.
 py::dict registerImages(const std::string& database, const std::string& input, const std::string& output,
                         const std::optional<std::vector<std::string>>& names, const py::dict& optionDict, bool useRawMatches,
-                        int minMatches) {
+                        int minMatches, const std::string& page, const std::string& imageFolder) {
   sfm::RegistrationOptions options;
   options.localization = optionsOf(optionDict);
   options.threads = options.localization.ransac.threads;
@@ -38,6 +39,7 @@ py::dict registerImages(const std::string& database, const std::string& input, c
   const sfm::SparseModel map = sfm::readModel(input);
   sfm::DatabaseQueries queries(sfm::ColmapDatabase(database), map, queryOptions);
   sfm::SparseModel result = map;
+  std::vector<report::ReportedImage> images;
   bool isInterrupted = false;
   sfm::RegistrationWatch watch;
   watch.isCancelled = [&] {
@@ -47,6 +49,7 @@ py::dict registerImages(const std::string& database, const std::string& input, c
   };
   const auto use = [&](sfm::RegisteredImage& image) {
     if (image.success()) addToModel(result, image.query, *image.localization);
+    if (!page.empty()) images.push_back(reportedImage(map, image));
     const py::gil_scoped_acquire acquire;
     results[py::str(image.name)] = valuesOf(map, image);
   };
@@ -55,6 +58,9 @@ py::dict registerImages(const std::string& database, const std::string& input, c
     const py::gil_scoped_acquire acquire;
     throw py::error_already_set();
   }
+  report::PageOptions pageOptions;
+  pageOptions.imageFolder = imageFolder;
+  if (!page.empty()) writePage(page, map, images, pageOptions);
   if (output.empty()) return results;
   std::filesystem::create_directories(output);
   sfm::writeColmapBinary(output, result);
@@ -65,7 +71,8 @@ py::dict registerImages(const std::string& database, const std::string& input, c
 
 void addRegistration(py::module_& module) {
   module.def("register_images", &registerImages, py::arg("database_path"), py::arg("input_path"), py::arg("output_path"),
-             py::arg("image_names"), py::arg("options"), py::arg("use_raw_matches"), py::arg("min_matches"));
+             py::arg("image_names"), py::arg("options"), py::arg("use_raw_matches"), py::arg("min_matches"), py::arg("html_path"),
+             py::arg("image_path"));
 }
 
 }  // namespace python

@@ -115,18 +115,10 @@ class Registration {
       else
         print([&] { std::printf("%s\n", line.c_str()); });
     }
-    if (arguments_.page.areWanted()) reported_.push_back(reported(outcome));
+    if (arguments_.page.areWanted()) reported_.push_back(reportedImage(map_, outcome));
     table_.add(outcome.name, outcome.localization.get(), outcome.failure);
     for (const std::string& note : outcome.query.notes) table_.note(note);
     if (!arguments_.quiet && arguments_.json != "-") print([&] { table_.printLast(); });
-  }
-
-  hybridgv::report::ReportedImage reported(const RegisteredImage& outcome) const {
-    if (outcome.localization) return hybridgv::report::reportedImage(map_, outcome.query, *outcome.localization);
-    hybridgv::report::ReportedImage failed;
-    failed.name = outcome.name;
-    failed.reason = outcome.failure;
-    return failed;
   }
 
   template <class Print>

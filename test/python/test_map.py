@@ -132,6 +132,12 @@ def test_register_images(world, database, tmp_path):
     assert list(part) == [name] and np.array_equal(part[name].cam_from_world, results[name].cam_from_world)
 
 
+def test_page_of_register_images(database, tmp_path):
+    results = hybridgv.register_images(database / "database.db", database / "map", html_path=tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="ascii")
+    assert page.startswith("<!DOCTYPE html>") and all(f'"name":"{name}"' in page for name in results)
+
+
 def test_wrong_calls_of_register_images(database, tmp_path):
     paths = database / "database.db", database / "map"
     with pytest.raises(ValueError, match="has no image nobody"):

@@ -107,5 +107,7 @@ def register_images(
     options: Dict[str, Any],
     use_raw_matches: bool,
     min_matches: int,
+    html_path: str,
+    image_path: str,
 ) -> Dict[str, Any]: ...
 def run_program(command: str, arguments: List[str]) -> int: ...

@@ -22,6 +22,8 @@ def register_images(
     *,
     matches: str = "two_view_geometries",
     min_matches: int = 15,
+    html_path: Optional[_Path] = None,
+    image_path: Optional[_Path] = None,
 ) -> Dict[str, QueryResult]:
     """Registers images of a COLMAP database in a map whose images they match, as COLMAP's image_registrator does.
 
@@ -35,6 +37,8 @@ def register_images(
         options: hybridgv.Options or a dict with some of its keys; `threads` images are localized at once
         matches: "two_view_geometries" (verified) or "matches" (raw)
         min_matches: pairs of images with fewer matches are left out
+        html_path: a page to look at the result; None: none is written
+        image_path: folder of the images, for the page
 
     Returns:
         {name: result}. An image that cannot be read has a result without pose whose failure_reason says why.
@@ -53,6 +57,8 @@ def register_images(
         dict_of(options),
         matches == "matches",
         min_matches,
+        "" if html_path is None else os.fspath(html_path),
+        "" if image_path is None else os.fspath(image_path),
     )
     return {name: QueryResult(values) if isinstance(values, dict) else _unread(name, values) for name, values in found.items()}
 

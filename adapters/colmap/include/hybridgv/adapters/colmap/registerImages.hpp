@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hybridgv/adapters/colmap/DatabaseQueries.hpp"
+#include "hybridgv/adapters/report/Page.hpp"
 #include "hybridgv/adapters/sfm/QueryImage.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
 #include "hybridgv/adapters/sfm/localizeQuery.hpp"
@@ -36,6 +37,10 @@ struct HYBRIDGV_EXPORT RegisteredImage {
 
   bool success() const;  ///< whether it was localized
 };
+
+/// For the page of a result: the image, or why it could not be read.
+/// \throws std::invalid_argument if the image was localized in another map
+HYBRIDGV_EXPORT report::ReportedImage reportedImage(const SparseModel& map, const RegisteredImage& image);
 
 /// What is told while images are localized.
 struct RegistrationWatch {
