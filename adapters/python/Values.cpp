@@ -16,7 +16,7 @@ std::string shapeOf(const py::array& array) {
 
 DoubleArray arrayOfNumbers(const char* name, const py::object& values) {
   if (values.is_none()) throw std::invalid_argument(std::string(name) + " is missing");
-  const DoubleArray array = DoubleArray::ensure(values);
+  DoubleArray array = DoubleArray::ensure(values);
   if (!array) throw std::invalid_argument(std::string(name) + " is not an array of numbers");
   return array;
 }
@@ -55,7 +55,7 @@ void addSearch(const sac::HybridRansacResult& result, py::dict& dict) {
 }  // namespace
 
 DoubleArray rowsOf(const char* name, const py::object& values, py::ssize_t columns) {
-  const DoubleArray array = arrayOfNumbers(name, values);
+  DoubleArray array = arrayOfNumbers(name, values);
   if (array.ndim() == 1 && array.size() == 0) return DoubleArray(std::vector<py::ssize_t>{0, columns});
   if (array.ndim() != 2 || array.shape(1) != columns)
     throw std::invalid_argument(std::string(name) + " must have the shape (N, " + std::to_string(columns) + "), has " +
@@ -68,7 +68,7 @@ DoubleArray rowsOf(const char* name, const py::object& values, py::ssize_t colum
 }
 
 DoubleArray numbersOf(const char* name, const py::object& values) {
-  const DoubleArray array = arrayOfNumbers(name, values);
+  DoubleArray array = arrayOfNumbers(name, values);
   if (array.ndim() != 1) throw std::invalid_argument(std::string(name) + " must have the shape (N,), has " + shapeOf(array));
   return array;
 }

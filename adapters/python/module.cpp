@@ -4,6 +4,7 @@
 #include <hybridgv/types.hpp>
 
 #include <stdexcept>
+#include <utility>
 
 #include "Module.hpp"
 #include "Options.hpp"
@@ -18,7 +19,7 @@ py::object orNone(std::size_t place) { return place == FileError::kNowhere ? py:
 // The library's exceptions as Python's.
 void translate(std::exception_ptr pointer) {
   try {
-    if (pointer) std::rethrow_exception(pointer);
+    if (pointer) std::rethrow_exception(std::move(pointer));
   } catch (const FileError& error) {
     const py::object kind = py::module_::import("hybridgv._errors").attr("FileError");
     const py::object value = kind(error.what(), error.file(), orNone(error.line()), orNone(error.byteOffset()));

@@ -59,7 +59,7 @@ class Registration {
 
   // The names of the images to register; those that the map has already are skipped, so that a run can be continued.
   std::vector<std::string> wanted() {
-    const std::vector<std::string> missing = queries_.namesNotInMap();
+    std::vector<std::string> missing = queries_.namesNotInMap();
     if (arguments_.imageList.empty()) return missing;
     const std::set<std::string> isMissing(missing.begin(), missing.end());
     std::set<std::string> seen;

@@ -6,7 +6,8 @@ set -e
 packages=$(cd "$1" && pwd)
 cd "$(dirname "$0")"
 apt-get update -qq
-DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends g++ cmake make pkg-config "$packages"/libhybridgv*.deb "$packages"/hybridgv*.deb
+DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends g++ cmake make pkg-config "$packages"/libhybridgv*.deb "$packages"/hybridgv*.deb \
+  "$packages"/python3-hybridgv*.deb
 grep -H . /var/lib/dpkg/info/libhybridgv0*.shlibs  # what packages of programs that use the library will depend on
 build=$(mktemp -d)
 sh ./check.sh "$build/core" "headers core"
@@ -16,5 +17,7 @@ g++ -std=c++17 core.cpp -o "$build/with_pkg_config" $(pkg-config --cflags --libs
 rm -r "$build"
 hybridgv --version
 hybridgv localize --query 3
-apt-get purge -y -qq hybridgv libhybridgv-dev 'libhybridgv-colmap0*' 'libhybridgv0*'
+python3 -c "import hybridgv; print(hybridgv.__version__, hybridgv.localize([], [], camera=(640, 480)))"
+python3 -m hybridgv localize --query 3
+apt-get purge -y -qq python3-hybridgv hybridgv libhybridgv-dev 'libhybridgv-colmap0*' 'libhybridgv0*'
 echo "packages installed, used and removed"
