@@ -109,8 +109,8 @@ class Registration {
     QueryOptions options = options_.localization;
     const double side = static_cast<double>(std::max(image.query.camera.width, image.query.camera.height));
     if (side > 0) {
-      options.ransac.minFocalLength = options_.minFocalRatio * side;
-      options.ransac.maxFocalLength = options_.maxFocalRatio * side;
+      options.ransac.minFocalLength = std::max(options.ransac.minFocalLength, options_.minFocalRatio * side);
+      options.ransac.maxFocalLength = std::min(options.ransac.maxFocalLength, options_.maxFocalRatio * side);
     }
     image.localization = std::make_unique<QueryLocalization>(common ? localizeQuery(map_, image.query, *common, options)
                                                                     : localizeQuery(map_, image.query, options));

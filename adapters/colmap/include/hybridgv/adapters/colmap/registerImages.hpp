@@ -20,7 +20,7 @@ namespace sfm {
 
 /// How images are registered.
 struct RegistrationOptions {
-  QueryOptions localization;        ///< of each image; the focal length's bounds are set by the ratios below
+  QueryOptions localization;        ///< of each image; of the focal length's bounds and the ratios below the narrower ones count
   double minFocalRatio = 0.1;       ///< smallest focal length, of the longer side of the image
   double maxFocalRatio = 10;        ///< largest focal length, of the longer side of the image
   double maxDistortion = 1;         ///< an image with a larger |k1| is not registered
