@@ -49,7 +49,7 @@ py::dict registerImages(const std::string& database, const std::string& input, c
   };
   const auto use = [&](sfm::RegisteredImage& image) {
     if (image.success()) addToModel(result, image.query, *image.localization);
-    if (!page.empty()) images.push_back(reportedImage(map, image));
+    if (!page.empty()) addImage(images, reportedImage(map, image));
     const py::gil_scoped_acquire acquire;
     results[py::str(image.name)] = valuesOf(map, image);
   };

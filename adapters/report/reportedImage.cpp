@@ -86,6 +86,17 @@ void addMarks(const LocalizationProblem& problem, const HybridRansacResult& resu
   }
 }
 
+std::size_t countInliers(const std::vector<Mark>& marks) {
+  return static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](const Mark& mark) { return mark.isInlier; }));
+}
+
+void countMarks(ReportedImage& image) {
+  image.matches2d3d = image.marks2d3d.size();
+  image.matches2d2d = image.marks2d2d.size();
+  image.inliers2d3d = countInliers(image.marks2d3d);
+  image.inliers2d2d = countInliers(image.marks2d2d);
+}
+
 // Of an image of unknown size: what its correspondences need.
 void setSize(const Camera& camera, ReportedImage& image) {
   image.width = static_cast<double>(camera.width);
@@ -131,6 +142,7 @@ ReportedImage reportedImage(const sfm::SparseModel& map, const sfm::QueryImage& 
   image.seconds = result.seconds;
   addMarks(
       localization.problem, result, [&](std::size_t i) { return query.keypoints[i]; }, image);
+  countMarks(image);
   setSize(query.camera, image);
   for (const sfm::PairReport& pair : localization.pairs) {
     if (pair.image >= map.images.size()) throwInvalid("localization", "is of another map");
@@ -157,6 +169,7 @@ ReportedImage reportedImage(const sfm::SparseModel& map, std::size_t imageIndex,
   image.seconds = result.seconds;
   const auto observed = [&](std::size_t i) { return sfm::Keypoint{query.observations[i].x, query.observations[i].y}; };
   addMarks(problem, result, observed, image);
+  countMarks(image);
   setSize(map.cameras[query.camera], image);
   if (!image.success) return image;
   const FoundCamera camera = foundCamera(map.cameras[query.camera], problem, result);
@@ -167,6 +180,17 @@ ReportedImage reportedImage(const sfm::SparseModel& map, std::size_t imageIndex,
   }
   addEpipolarSegments(problem.adapter, camera, image);
   return image;
+}
+
+void addImage(std::vector<ReportedImage>& images, ReportedImage image, std::size_t maxMarks) {
+  std::size_t marks = image.matches2d3d + image.matches2d2d;
+  for (std::size_t i = images.size(); i > 0 && marks <= maxMarks; --i)
+    marks += images[i - 1].matches2d3d + images[i - 1].matches2d2d;
+  if (marks > maxMarks) {
+    image.marks2d3d = {};
+    image.marks2d2d = {};
+  }
+  images.push_back(std::move(image));
 }
 
 }  // namespace report

@@ -71,10 +71,6 @@ void addMarks(const char* kind, const std::vector<Mark>& marks, JsonList& json) 
   json.add("lengths", jsonArray(lengths));
 }
 
-std::string countInliers(const std::vector<Mark>& marks) {
-  return jsonCount(static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](const Mark& m) { return m.isInlier; })));
-}
-
 void addPose(const ReportedImage& image, const Extent& extent, JsonList& json) {
   std::vector<float> pose;
   append(image.pose.position - extent.centre, pose);
@@ -107,14 +103,15 @@ std::string imageJson(const ReportedImage& image, const Extent& extent, bool has
   json.add("width", jsonNumber(image.width));
   json.add("height", jsonNumber(image.height));
   json.add("seconds", jsonNumber(image.seconds));
-  json.add("number2d3d", jsonCount(image.marks2d3d.size()));
-  json.add("number2d2d", jsonCount(image.marks2d2d.size()));
-  json.add("good2d3d", countInliers(image.marks2d3d));
-  json.add("good2d2d", countInliers(image.marks2d2d));
+  json.add("number2d3d", jsonCount(image.matches2d3d));
+  json.add("number2d2d", jsonCount(image.matches2d2d));
+  json.add("good2d3d", jsonCount(image.inliers2d3d));
+  json.add("good2d2d", jsonCount(image.inliers2d2d));
   json.add("mapImages", mapImages(image.mapImages));
   if (image.success) addPose(image, extent, json);
   if (!address.empty()) json.add("address", jsonString(address));
-  if (!hasMarks) return json.text();
+  const bool isComplete = image.marks2d3d.size() == image.matches2d3d && image.marks2d2d.size() == image.matches2d2d;
+  if (!hasMarks || !isComplete) return json.text();
   addMarks("2d3d", image.marks2d3d, json);
   addMarks("2d2d", image.marks2d2d, json);
   return json.text();
@@ -144,7 +141,7 @@ std::string pageData(const std::string& path, const sfm::SparseModel& map, const
   JsonList list(false);
   std::size_t marks = 0;
   for (const ReportedImage& image : images) {
-    marks += image.marks2d2d.size() + image.marks2d3d.size();
+    marks += image.matches2d2d + image.matches2d3d;
     list.add(imageJson(image, extent, marks <= options.maxMarks, addresses.addressOf(image.name)));
   }
   json.add("images", list.text());

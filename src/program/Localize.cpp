@@ -68,7 +68,7 @@ void run(const LocalizeArguments& arguments) {
     progress.show(i);
     const Row row = localizeBothWays(queries[i].make(), arguments);
     if (arguments.page.areWanted())
-      reported.push_back(hybridgv::report::reportedImage(*queries[i].map, queries[i].image, row.problem, row.hybrid.result));
+      addImage(reported, hybridgv::report::reportedImage(*queries[i].map, queries[i].image, row.problem, row.hybrid.result));
     hybrid.add(row.hybrid);
     pointsOnly.add(row.pointsOnly);
     progress.clear();

@@ -115,7 +115,7 @@ class Registration {
       else
         print([&] { std::printf("%s\n", line.c_str()); });
     }
-    if (arguments_.page.areWanted()) reported_.push_back(reportedImage(map_, outcome));
+    if (arguments_.page.areWanted()) addImage(reported_, reportedImage(map_, outcome));
     table_.add(outcome.name, outcome.localization.get(), outcome.failure);
     for (const std::string& note : outcome.query.notes) table_.note(note);
     if (!arguments_.quiet && arguments_.json != "-") print([&] { table_.printLast(); });

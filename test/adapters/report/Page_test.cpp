@@ -185,6 +185,21 @@ TEST(Page, SaysWhatItLeavesOut) {
   EXPECT_NE(data.find("\"number2d3d\":"), std::string::npos);
 }
 
+// Images that have been appended without their correspondences make the same page as all of them.
+TEST(Page, NeedsNoMarksThatItDoesNotShow) {
+  const QueryScene s = scene();
+  const ReportedImage image = localized(s);
+  PageOptions options;
+  options.maxMarks = 2 * (image.marks2d3d.size() + image.marks2d2d.size()) + 1;
+  std::vector<ReportedImage> appended;
+  for (int i = 0; i < 5; ++i) addImage(appended, image, options.maxMarks);
+  for (std::size_t i = 0; i < appended.size(); ++i) {
+    EXPECT_EQ(appended[i].marks2d3d.empty(), i >= 2);
+    EXPECT_EQ(appended[i].matches2d3d, image.marks2d3d.size());
+  }
+  EXPECT_EQ(pageOf(s, appended, options), pageOf(s, std::vector<ReportedImage>(5, image), options));
+}
+
 TEST(Page, EmbedsImagesAndLinksLargeOnes) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.file("in"));

@@ -49,8 +49,12 @@ struct ReportedImage {
   double k1 = 0;                            ///< distortion as of COLMAP's SIMPLE_RADIAL
   double k1StandardDeviation = 0;           ///< of k1; 0 if it is not estimated
   double seconds = 0;                       ///< of the search
-  std::vector<Mark> marks2d3d;              ///< points
-  std::vector<Mark> marks2d2d;              ///< rays
+  std::size_t matches2d3d = 0;              ///< correspondences
+  std::size_t matches2d2d = 0;              ///< correspondences
+  std::size_t inliers2d3d = 0;              ///< of which agree with the pose
+  std::size_t inliers2d2d = 0;              ///< of which agree with the pose
+  std::vector<Mark> marks2d3d;              ///< all of them, or none
+  std::vector<Mark> marks2d2d;              ///< all of them, or none
   std::vector<MapImageShare> mapImages;     ///< one for each map image that has matches
 };
 
@@ -75,6 +79,11 @@ struct PageOptions {
   std::size_t maxImageBytes = 4u << 20u;  ///< of one image in the page
   std::size_t maxBytesOfAllImages = 40u << 20u;  ///< of all images in the page
 };
+
+/// Appends an image without its correspondences if those of all images together are more than `maxMarks`: the page does not show them, and
+/// those of thousands of images need memory.
+HYBRIDGV_EXPORT void addImage(std::vector<ReportedImage>& images, ReportedImage image,
+                              std::size_t maxMarks = PageOptions().maxMarks);
 
 /// The page as a string, for a file beside `path` (of which only the folder matters, for links).
 /// \throws std::invalid_argument for poses that are not finite
