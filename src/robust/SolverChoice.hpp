@@ -16,7 +16,8 @@ struct Strategy {
   double prior;
 
   // Six rays of one camera and one of another are drawn in two stages.
-  bool isStaged() const { return solver.draw == RayDraw::AllButOne; }
+  // Six rays of one camera and a seventh (StagedSampling); not five and a sixth for a known focal length.
+  bool isStaged() const { return solver.draw == RayDraw::AllButOne && solver.intrinsics.focalLength; }
   SampleSize size() const;
   // Of samples with inliers only, the share that leads to the right pose.
   double yield() const;

@@ -61,7 +61,7 @@ Parameters perturbedParameters(const MinimalProblem& problem, Random& random) {
 }
 
 H32fSolutions::value_type trueSolution(const MinimalProblem& problem) {
-  const solvers::h51f::Solution truth = solutionOf(problem.truth, frameOf(problem), problem.points[0]);
+  const solvers::h51f::Solution truth = solvers::h51f::solutionOf(problem.truth, frameOf(problem), problem.points[0]);
   return {{truth.x.real(), truth.y.real(), truth.d.real()}, {truth.x.imag(), truth.y.imag(), 0}};
 }
 
@@ -75,7 +75,8 @@ FocalPoses posesOf(const H32fSolutions& solutions, const MinimalProblem& problem
     const Number x(p.re[0], p.im[0]), y(p.re[1], p.im[1]), d(p.re[2], p.im[2]);
     if (std::abs(y - std::conj(x)) > 1e-6 * (1 + std::abs(x)) || std::abs(d.imag()) > 1e-6 * std::abs(d)) continue;
     const Number beta = -2.0 * x / (pi1 * (1.0 - x * y) - (pi0 - pi1) * d * (1.0 + x * y));
-    const FocalPose pose = poseOf({x, std::conj(x), std::conj(beta), beta, d}, frameOf(problem), problem.points[0]);
+    const FocalPose pose =
+        solvers::h51f::poseOf({x, std::conj(x), std::conj(beta), beta, d}, frameOf(problem), problem.points[0]);
     if (largestResidual(problem, pose, 2) < kSmallResidual) poses.push_back(pose);
   }
   return poses;
