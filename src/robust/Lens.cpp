@@ -22,7 +22,9 @@ Lens makeLens(const CorrespondenceArrays& arrays, const sac::HybridRansacOptions
 double logEvidence(double distortion, double deviation, const DistortionPrior& prior) {
   constexpr double kPi = 3.14159265358979323846;
   const double z = distortion / deviation;
-  return z * z / 2 + std::log(std::sqrt(2 * kPi) * deviation / (kPi * prior.scale));
+  // Data that say less than the prior are no evidence for anything.
+  const double spread = std::min(deviation, prior.scale);
+  return z * z / 2 + std::log(std::sqrt(2 * kPi) * spread / (kPi * prior.scale));
 }
 
 }  // namespace robust

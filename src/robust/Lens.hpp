@@ -25,7 +25,8 @@ Lens makeLens(const CorrespondenceArrays& arrays, const sac::HybridRansacOptions
 constexpr double kLeastDistortion = -0.7, kLargestDistortion = 0.3;
 
 // Natural log of the odds that there is distortion, for an estimate with this standard deviation: the ratio of the prior's and the
-// posterior's density at 0, the latter taken as normal (Savage and Dickey). The estimate includes the prior.
+// posterior's density at 0, the latter taken as normal (Savage and Dickey). The estimate includes the prior. A deviation above the prior's
+// scale means that the data say nothing, and counts as that scale.
 double logEvidence(double distortion, double deviation, const DistortionPrior& prior);
 
 }  // namespace robust

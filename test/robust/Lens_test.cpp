@@ -77,6 +77,15 @@ TEST(Lens, EvidenceIsTheRatioOfTheDensitiesAtZero) {
   EXPECT_GT(logEvidence(1e-9, deviation, prior), 10);
 }
 
+TEST(Lens, DataThatSayLessThanThePriorAreNoEvidence) {
+  const DistortionPrior prior{2e-8, 1};
+  for (const double timesPrior : {1., 3., 10., 1e6})
+    for (const double z : {0., 0.1, 0.5}) {
+      const double deviation = timesPrior * prior.scale;
+      EXPECT_LT(logEvidence(z * deviation, deviation, prior), 0) << timesPrior << ", " << z;
+    }
+}
+
 TEST(DistortionPrior, WeightIsHalfTheSlopeOfTheCostOverTheDistortion) {
   for (const DistortionPrior& prior : {DistortionPrior{1e-7, 1}, DistortionPrior{1e-8, 0.05}})
     for (const double c : {-3e-7, -1e-8, 1e-9, 1e-7}) {
