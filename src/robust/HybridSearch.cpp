@@ -364,7 +364,27 @@ void HybridSearch::chooseLens() {
   }
 }
 
+// The noise that is found at a pose depends on what counts as an inlier. So wrong rays, where there are many, can hold a pose near the
+// right one by a noise that is too large; a narrower threshold leads on from there.
+void HybridSearch::tryNarrowerThreshold(Model& model) {
+  constexpr double kNarrower = 0.25, kMany = 1 / 3.;
+  const int all = data_.sampler.numberRays();
+  if (all - model.evaluation.rays < kMany * all) return;
+  setThresholds(model);
+  model.logLikelihood = optimizer_.logLikelihood(model.pose);
+  const Thresholds wide = scorer_.thresholds();
+  scorer_.setThresholds({kNarrower * wide.rays, wide.points});
+  Model narrower = model;
+  narrower.pose = optimizer_.settle(model.pose, optimizer_.moreThanChance(model.pose));
+  findThresholds(narrower);
+  if (narrower.logLikelihood > model.logLikelihood + kLeastGain)
+    model = narrower;
+  else
+    scorer_.setThresholds(wide);
+}
+
 FinalPose HybridSearch::finish(bool optimize) {
+  if (optimize) tryNarrowerThreshold(best_);
   if (optimize && estimated_.radial) settleAnew(best_);
   if (optimize && !optimizer_.focalLengthIsSure(best_.pose)) {
     escapeLocalOptimum(best_);

@@ -98,6 +98,7 @@ class HybridSearch {
   void compare(const Model& optimized);
   void setThresholds(const Model& model);
   void findThresholds(Model& model);
+  void tryNarrowerThreshold(Model& model);
   void replaceIfLikelier(const QueryPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model) const;
   void settleAnew(Model& model) const;
