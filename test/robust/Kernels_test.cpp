@@ -203,7 +203,10 @@ void expectGradientIsTheDifference(const Kernels& tested, int parameters, const 
   if (!std::isfinite(here.cost)) return;  // something is behind a camera
   const double h = 1e-6;
   for (int i = 0; i < parameters; ++i) {
-    const double difference = (at(moved(pose, i, h)).cost - at(moved(pose, i, -h)).cost) / (2 * h);
+    const double forward = (at(moved(pose, i, h)).cost - here.cost) / h;
+    const double backward = (here.cost - at(moved(pose, i, -h)).cost) / h, difference = (forward + backward) / 2;
+    // Where an error passes the truncation, the cost has a kink, and the difference says nothing.
+    if (loss.loss == Loss::Truncated && std::abs(forward - backward) > 1e-3 * std::abs(difference)) continue;
     EXPECT_NEAR(2 * unitOf(i) * here.gradient[i], difference, 1e-5 * (1 + std::abs(difference)) + 1e-13 * here.cost / h)
         << "loss " << static_cast<int>(loss.loss) << " points " << points << " parameter " << i << " distortion "
         << pose.distortion;
