@@ -103,7 +103,7 @@ static std::vector<Situation> makeSituations() {
              });
   addProblem("all_image_points_at_the_principal_point", "000 000 000000 00 00000000000000 0 00 0 0 0",
              [](MinimalProblem& problem, Random&) { rescale(problem, 0, 1); });
-  addProblem("image_points_collinear", "vvv 000 vvvvv0 00 vvvvvvvvvvvvv0 v vv v 0 v",
+  addProblem("image_points_collinear", "vvv 000 vvvvv0 00 vvvvvvvvvvvvv0 v vv v v v",
              [](MinimalProblem& problem, Random& random) {
                const double slope = random.uniform(-1, 1), offset = random.uniform(-100, 100);
                for (solvers::RayMatch& ray : problem.rays) ray.v = offset + slope * ray.u;
