@@ -56,6 +56,7 @@ class EquationCheck {
   }
 
   static constexpr double kTolerance = 1e-6;  // of the largest image coordinate
+  static constexpr double kOperations = 100;  // of which each may round
 
   // How many pixels rounding errors in the unit of the whole scene make at an image point (u, v), `distance` away from the query.
   double rounding(const FocalPose& pose, double u, double v, double distance) const {
@@ -77,6 +78,9 @@ class EquationCheck {
     const double u = isExactU ? match.u : projectedU, v = isExactV ? match.v : projectedV;
     const double allowed = kTolerance * imageScale_ + rounding(pose, u, v, x.norm());
     if (!(allowed < imageScale_) || isGrazing(pose, u, v)) return "";
+    // Where the query stands in the point, rounding decides on the sign of the depth and on the image.
+    const double roundingOfDepth = kOperations * std::numeric_limits<double>::epsilon() * (extent_ + pose.position.norm());
+    if (std::abs(x[2]) <= roundingOfDepth) return "";
     if (x[2] <= 0) return describe("points are in front of the query", pose, -x[2], 0);
     if (isExactU && std::abs(projectedU - u) > allowed)
       return describe("the u coordinates of points are met", pose, std::abs(projectedU - u), allowed);
@@ -104,7 +108,7 @@ class EquationCheck {
   // rounding decides on the signs.
   std::string depthViolation(const FocalPose& pose, const solvers::RayMatch& ray, const Eigen::Vector3d& a,
                              const Eigen::Vector3d& b) const {
-    constexpr double kSmallAngle = 1e-3, kRounding = 1e-6, kOperations = 100;
+    constexpr double kSmallAngle = 1e-3, kRounding = 1e-6;
     const Eigen::Vector3d p = Eigen::Vector3d(ray.u, ray.v, pose.focalLength).normalized(), n = p.cross(a);
     const double sine = n.norm();
     if (!(sine > kSmallAngle)) return "";
