@@ -56,6 +56,9 @@ bool TrianglePose::set(const Eigen::Vector3d& depths, FocalPose& pose) const {
   Eigen::Matrix3d seen;
   if (!makeFrame(depths[1] * bearings_[1] - first, depths[2] * bearings_[2] - first, seen)) return false;
   pose.rotation.noalias() = frame_ * seen.transpose();
+  // Of a triangle that is almost a line rounding leaves no rotation.
+  const Eigen::Matrix3d deviation = pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity();
+  if (!(deviation.squaredNorm() < 1e-14)) return false;
   if (!isMet(pose.rotation.transpose(), first)) return false;
   pose.position = points_[0].point - unit_ * (pose.rotation * first);
   pose.focalLength = 1;
