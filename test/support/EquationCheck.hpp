@@ -60,7 +60,7 @@ class EquationCheck {
 
   // How many pixels rounding errors in the unit of the whole scene make at an image point (u, v), `distance` away from the query.
   double rounding(const FocalPose& pose, double u, double v, double distance) const {
-    constexpr double kOperations = 1e6;
+    constexpr double kOperations = 1e5;
     const double f = pose.focalLength, size = extent_ + pose.position.norm() + distance;
     return kOperations * std::numeric_limits<double>::epsilon() * (f + (u * u + v * v) / f) * size / distance;
   }

@@ -17,11 +17,13 @@ constexpr double kImageTolerance = 1e-7;
 
 // Orthonormal columns: along a, in the plane of a and b, normal to it. False if these are parallel.
 bool makeFrame(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Eigen::Matrix3d& frame) {
-  const Eigen::Vector3d first = a / a.norm(), normal = first.cross(b);
-  const double length = normal.norm();
-  if (!(length > kCollinear * b.norm())) return false;
+  // Squares of small numbers underflow.
+  const Eigen::Vector3d first = (a / a.cwiseAbs().maxCoeff()).normalized(), second = b / b.cwiseAbs().maxCoeff();
+  const Eigen::Vector3d normal = first.cross(second);
+  if (!(normal.norm() > kCollinear * second.norm())) return false;
   frame.col(0) = first;
-  frame.col(2) = normal / length;
+  // Of vectors that are almost parallel the product is perpendicular to neither, by as much as has cancelled in it.
+  frame.col(2) = (normal - first.dot(normal) * first).normalized();
   frame.col(1) = frame.col(2).cross(first);
   return true;
 }
@@ -56,9 +58,6 @@ bool TrianglePose::set(const Eigen::Vector3d& depths, FocalPose& pose) const {
   Eigen::Matrix3d seen;
   if (!makeFrame(depths[1] * bearings_[1] - first, depths[2] * bearings_[2] - first, seen)) return false;
   pose.rotation.noalias() = frame_ * seen.transpose();
-  // Of a triangle that is almost a line rounding leaves no rotation.
-  const Eigen::Matrix3d deviation = pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity();
-  if (!(deviation.squaredNorm() < 1e-14)) return false;
   if (!isMet(pose.rotation.transpose(), first)) return false;
   pose.position = points_[0].point - unit_ * (pose.rotation * first);
   pose.focalLength = 1;

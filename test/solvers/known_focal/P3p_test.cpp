@@ -91,6 +91,28 @@ TEST(P3p, FindsDoubleSolutions) {
 }
 
 // Homogeneous image points are bearing vectors, of any angle below 90 degrees.
+// One point is far from the other two, the more so the thinner the triangle. Whatever is returned is a rotation to rounding.
+TEST(P3p, PosesFromThinTrianglesAreRotations) {
+  int poses = 0;
+  for (const double thin : {1e-4, 1e-6, 1e-8, 1e-10, 1e-11})
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      Random random(testSeed() + 41, i);
+      MinimalProblem problem;
+      problem.truth.focalLength = 1000;
+      problem.truth.rotation = random.rotation();
+      for (const double depth : {1 / thin, random.uniform(1, 2), random.uniform(1, 2)}) {
+        const Vector3d ray(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 1);
+        problem.points.push_back(makePointMatch(problem.truth, problem.truth.rotation * (depth * ray)));
+      }
+      for (const FocalPose& pose : solve(problem)) {
+        EXPECT_LT((pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).norm(), 1e-13) << thin << ", " << i;
+        EXPECT_GT(pose.rotation.determinant(), 0);
+        ++poses;
+      }
+    }
+  EXPECT_GT(poses, 100) << "there is something to check";
+}
+
 TEST(P3p, TakesBearingVectors) {
   Random random(testSeed(), 41);
   for (int trial = 0; trial < 200; ++trial) {
