@@ -392,25 +392,24 @@ FinalPose HybridSearch::finish(bool optimize) {
   }
   if (optimize && estimated_.radial) chooseLens();
   FinalPose result = optimizer_.polish(best_.pose, optimize);
-  if (part_ && optimize) result = fitToAll(result.pose);
+  if (part_) result = fitToAll(result.pose, optimize);
   best_.pose = result.pose;
   scorer_.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   best_.evaluation = scorer_.evaluate(best_.pose);
-  if (part_) {
-    PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
-    scorer.setThresholds(scorer_.thresholds());
-    judgeAll(scorer);
-  } else {
-    judgeAll(scorer_);
-  }
+  if (!part_) judgeAll(scorer_);
   return result;
 }
 
-FinalPose HybridSearch::fitToAll(const QueryPose& pose) {
+FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
   scorer.setThresholds(scorer_.thresholds());
   const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
-  return makeOptimizer(scorer, chance).polishNear(pose);
+  const LocalOptimizer optimizer = makeOptimizer(scorer, chance);
+  const FinalPose result = optimize ? optimizer.polishNear(pose) : optimizer.polish(pose, false);
+  best_.pose = result.pose;
+  scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
+  judgeAll(scorer);
+  return result;
 }
 
 void HybridSearch::judgeAll(const PoseScorer& scorer) {

@@ -111,7 +111,8 @@ class HybridSearch {
   bool isOutOfTime() const;
   bool isDetermined(const FinalPose& final) const;
   // The best model has been optimized for a part of the correspondences.
-  FinalPose fitToAll(const QueryPose& pose);
+  // With `optimize`, for all of them; masks, score, noise and covariance are those of all anyway.
+  FinalPose fitToAll(const QueryPose& pose, bool optimize);
   void judgeAll(const PoseScorer& scorer);
   InlierCounts inlierCounts(const QueryPose& pose) const;
 

@@ -1,6 +1,7 @@
 #include "robust/SearchData.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "correspondences/readCorrespondence.hpp"
@@ -50,6 +51,32 @@ CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, c
   return arrays;
 }
 
+// Places of at most `count` rays, in increasing order. The arrays are in random order, so the first ones are as good as any; but the rays
+// of one camera, which fix the scale, must not get lost among many of another. So half of them come from all cameras alike.
+std::vector<int> someRays(const CorrespondenceArrays& arrays, std::size_t count) {
+  const std::size_t all = arrays.rays().size();
+  if (all <= count) return correspondences::allIndices(all);
+  std::vector<int> chosen = correspondences::allIndices(count / 2), seen;
+  std::vector<std::pair<int, int>> others;  // how many of the same camera come before, place
+  for (std::size_t i = chosen.size(); i < all; ++i) {
+    const auto camera = static_cast<std::size_t>(arrays.rays()[i].camera);
+    if (camera >= seen.size()) seen.resize(camera + 1, 0);
+    others.emplace_back(seen[camera]++, static_cast<int>(i));
+  }
+  const auto end = others.begin() + static_cast<std::ptrdiff_t>(count - chosen.size());
+  std::nth_element(others.begin(), end, others.end());
+  std::transform(others.begin(), end, std::back_inserter(chosen), [](const std::pair<int, int>& other) { return other.second; });
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+std::vector<int> at(const std::vector<int>& values, const std::vector<int>& places) {
+  std::vector<int> result;
+  result.reserve(places.size());
+  for (const int place : places) result.push_back(values[static_cast<std::size_t>(place)]);
+  return result;
+}
+
 }  // namespace
 
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options) {
@@ -61,17 +88,14 @@ SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const s
   return {std::move(rays), std::move(points), std::move(arrays), std::move(sampler)};
 }
 
-// The correspondences are in random order, so the first ones are as good as any.
 std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::HybridAdapterBase& adapter,
                                  const sac::HybridRansacOptions& options) {
   constexpr std::size_t kEnough = 1000;
-  const std::size_t rays = std::min(all.rayIndices.size(), kEnough), points = std::min(all.pointIndices.size(), kEnough);
-  if (rays == all.rayIndices.size() && points == all.pointIndices.size()) return std::nullopt;
-  const auto first = [](const std::vector<int>& indices, std::size_t count) {
-    return std::vector<int>(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(count));
-  };
-  std::vector<int> rayIndices = first(all.rayIndices, rays), pointIndices = first(all.pointIndices, points);
-  CorrespondenceArrays arrays = all.arrays.subset(correspondences::allIndices(rays), correspondences::allIndices(points));
+  if (all.rayIndices.size() <= kEnough && all.pointIndices.size() <= kEnough) return std::nullopt;
+  const std::vector<int> rays = someRays(all.arrays, kEnough);
+  const std::vector<int> points = correspondences::allIndices(std::min(all.pointIndices.size(), kEnough));
+  std::vector<int> rayIndices = at(all.rayIndices, rays), pointIndices = at(all.pointIndices, points);
+  CorrespondenceArrays arrays = all.arrays.subset(rays, points);
   Sampler sampler = makeSampler(adapter, arrays, rayIndices, pointIndices, options.sampling);
   return SearchData{std::move(rayIndices), std::move(pointIndices), std::move(arrays), std::move(sampler)};
 }

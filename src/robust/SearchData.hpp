@@ -21,7 +21,7 @@ struct SearchData {
 // Reads everything that the adapter has. Throws std::invalid_argument for data or weights that are not finite.
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options);
 
-// A thousand of each kind tell as good as all where a pose is, and cost less. None if there are not more.
+// A thousand of each kind tell as good as all where a pose is, and cost less. Every camera keeps rays. None if there are not more.
 std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::HybridAdapterBase& adapter,
                                  const sac::HybridRansacOptions& options);
 

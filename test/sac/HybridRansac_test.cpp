@@ -490,6 +490,32 @@ TEST(HybridRansac, ManyCorrespondencesAreAllUsed) {
   EXPECT_LT(squares / kCount, 2.5);
 }
 
+// Without points the scale hangs on the cameras with few rays.
+TEST(HybridRansac, FewRaysOfACameraDoNotGetLostAmongMany) {
+  test::Random random(test::testSeed(), 80);
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    SceneOptions sceneOptions = noisy(30000, 0, 0.2);
+    HybridScene scene = test::makeHybridScene(random, sceneOptions), uneven = scene;
+    uneven.image2d2d.clear();
+    uneven.bearings.clear();
+    uneven.cameras.clear();
+    std::vector<int> count(scene.offsets.size(), 0);
+    for (std::size_t k = 0; k < scene.cameras.size(); ++k) {
+      int& ofCamera = count[static_cast<std::size_t>(scene.cameras[k])];
+      if (scene.cameras[k] != 0 && ofCamera >= 30) continue;
+      ++ofCamera;
+      uneven.image2d2d.push_back(scene.image2d2d[k]);
+      uneven.bearings.push_back(scene.bearings[k]);
+      uneven.cameras.push_back(scene.cameras[k]);
+    }
+    HybridRansacOptions options;
+    options.seed = i;
+    const HybridRansacResult result = hybridRansac(uneven.adapter(), options);
+    EXPECT_TRUE(result.success) << toString(result.failureReason);
+    EXPECT_TRUE(isRight(result.pose, scene.truth));
+  }
+}
+
 TEST(HybridRansac, WrongOptionsAreRefused) {
   const NoncentralHybridAdapter adapter({}, {}, {}, {}, {}, {}, {});
   const std::vector<std::function<void(HybridRansacOptions&)>> mistakes = {

@@ -32,7 +32,7 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
   /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d, and from what happens to
-  /// the pose if the rays of one rig camera, or one point, are left out (jackknife), so that errors of the rig show. Errors that
+  /// the pose if the rays of one rig camera, or one of 64 groups of points, are left out (jackknife), so that errors of the rig show. Errors that
   /// all correspondences share, such as those of the principal point, do not. All infinite if the inliers do not fix the pose.
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
