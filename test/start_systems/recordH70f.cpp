@@ -5,8 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "solvers/complex_rays/Frame.hpp"
-#include "start_systems/H70fFamily.hpp"
+#include "start_systems/Recording.hpp"
 
 namespace hybridgv {
 namespace test {
@@ -14,11 +13,6 @@ namespace {
 
 using namespace solvers::h70f;
 using System = H70fFamily::PathProblem::System;
-
-bool isInFront(const FocalPose& pose, const MinimalProblem& problem) {
-  return std::all_of(problem.rays.begin(), problem.rays.end(),
-                     [&](const solvers::RayMatch& ray) { return solvers::complex_rays::agrees(pose, ray, 500); });
-}
 
 FocalPoses solutionsOf(const MinimalProblem& problem, const KnownSystem<H70fFamily>& known) {
   solvers::RayMatch rays[kRays];
@@ -29,31 +23,7 @@ FocalPoses solutionsOf(const MinimalProblem& problem, const KnownSystem<H70fFami
   const Parameters target = alignWith(start, rays, &frame);
   const auto ends = math::trackCarefully<System>(straightHomotopy(known.parameters, target), known.solutions);
   if (ends.size() != known.solutions.size()) std::abort();
-  const H70fFamily::PathProblem paths(start, target);
-  FocalPoses poses;
-  for (const auto& end : ends) {
-    if (!paths.isReal(end, 1e-8)) continue;
-    const auto number = [&end](int k) { return std::complex<double>(end.re[k], end.im[k]); };
-    const FocalPose pose = poseOf({number(0), number(1), number(2), number(3), number(4), number(5), number(6)}, frame);
-    if (isInFront(pose, problem)) poses.push_back(pose);
-  }
-  return poses;
-}
-
-void print(std::size_t id, const MinimalProblem& problem, const FocalPoses& poses) {
-  std::printf("problem %zu\n", id);
-  for (const solvers::RayMatch& ray : problem.rays) {
-    std::printf("p2 %.17g %.17g", ray.u, ray.v);
-    for (int i = 0; i < 3; ++i) std::printf(" %.17g", ray.centre[i]);
-    for (int i = 0; i < 3; ++i) std::printf(" %.17g", ray.direction[i]);
-    std::printf("\n");
-  }
-  for (const FocalPose& pose : poses) {
-    std::printf("solution %.17g", pose.focalLength);
-    for (int i = 0; i < 9; ++i) std::printf(" %.17g", pose.rotation(i / 3, i % 3));
-    for (int i = 0; i < 3; ++i) std::printf(" %.17g", pose.position[i]);
-    std::printf("\n");
-  }
+  return solutionsAmong(realPoses(ends, frame), problem);
 }
 
 void record(const std::string& pattern, std::uint64_t seed, std::size_t count) {

@@ -45,5 +45,11 @@ inline testing::AssertionResult areDistinct(const FocalPoses& poses, double tole
   return testing::AssertionSuccess();
 }
 
+// Both lists hold the same poses.
+inline void expectSamePoses(const FocalPoses& a, const FocalPoses& b, double tolerance) {
+  EXPECT_EQ(a.size(), b.size());
+  for (const FocalPose& pose : a) EXPECT_TRUE(hasFocalPoseNear(b, pose, tolerance));
+}
+
 }  // namespace test
 }  // namespace hybridgv

@@ -44,7 +44,7 @@ class H70fPathProblem {
   }
 
   // The camera's: y = conj x, beta = conj alpha, taub = conj tau, real t3.
-  bool isReal(const Solution& solution, double tolerance) const {
+  static bool isReal(const Solution& solution, double tolerance) {
     const Scalar x = component(solution, System::X), y = component(solution, System::Y);
     const Scalar alpha = component(solution, System::Alpha), beta = component(solution, System::Beta);
     const Scalar tau = component(solution, System::Tau), tauBar = component(solution, System::TauBar);

@@ -275,12 +275,6 @@ TEST_P(H51fPatterns, FindsAllRecordedSolutions) {
   }
 }
 
-// Both lists hold the same poses.
-void expectEqual(const FocalPoses& a, const FocalPoses& b, double tolerance) {
-  EXPECT_EQ(a.size(), b.size());
-  for (const FocalPose& pose : a) EXPECT_TRUE(hasFocalPoseNear(b, pose, tolerance));
-}
-
 TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
   for (std::uint64_t i = 0; i < 5; ++i) {
     Random random(testSeed() + 50, i);
@@ -289,7 +283,7 @@ TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
 
     MinimalProblem reversed = problem;
     std::reverse(reversed.rays.begin(), reversed.rays.end());
-    expectEqual(solve(reversed), expected, 1e-6);
+    expectSamePoses(solve(reversed), expected, 1e-6);
 
     MinimalProblem zoomed = problem;
     const double zoom = std::exp(random.uniform(-7, 7));
@@ -301,7 +295,7 @@ TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
     zoomed.points[0].v *= zoom;
     FocalPoses poses = solve(zoomed);
     for (FocalPose& pose : poses) pose.focalLength /= zoom;
-    expectEqual(poses, expected, 1e-6);
+    expectSamePoses(poses, expected, 1e-6);
 
     MinimalProblem moved = problem;
     const double scale = std::exp(random.uniform(-7, 7));
@@ -317,7 +311,7 @@ TEST_P(H51fPatterns, DoesNotDependOnOrderScaleAndFrame) {
       expectValid(moved, {pose});
       pose.rotation = turn.transpose() * pose.rotation;
     }
-    expectEqual(poses, expected, 1e-6);
+    expectSamePoses(poses, expected, 1e-6);
   }
 }
 
@@ -331,8 +325,8 @@ TEST_P(H51fPatterns, RecognisesSharedCentres) {
     unnumbered.rays[j].camera = static_cast<int>(j);
     inexact.rays[j].centre += 1e-12 * random.direction();
   }
-  expectEqual(solve(unnumbered), expected, 1e-9);
-  expectEqual(solve(inexact), expected, 1e-6);
+  expectSamePoses(solve(unnumbered), expected, 1e-9);
+  expectSamePoses(solve(inexact), expected, 1e-6);
 }
 
 // The table of minimal problems has the largest number for all of them.
@@ -354,14 +348,14 @@ TEST(H51f, FiveRaysOfOneCentreGoToTheirOwnSolver) {
   expectValid(problem, solutions);
   EXPECT_TRUE(hasFocalPoseNear(solutions, problem.truth, kRecovered));
   for (std::size_t j = 0; j < 5; ++j) problem.rays[j].camera = static_cast<int>(j);
-  expectEqual(solve(problem), solutions, 1e-12);
+  expectSamePoses(solve(problem), solutions, 1e-12);
 }
 
 TEST(H51f, PublicFunctionReadsTheAdapter) {
   Random random(testSeed(), 80);
   const MinimalProblem problem = makeMinimalProblem(random, {2, 1, 1, 1}, 1);
   const FocalPoses solutions = hybrid_pose::h51f(makeAdapter(problem));
-  expectEqual(solutions, solve(problem), 1e-9);
+  expectSamePoses(solutions, solve(problem), 1e-9);
   EXPECT_TRUE(hasFocalPoseNear(solutions, problem.truth, kRecovered));
 }
 

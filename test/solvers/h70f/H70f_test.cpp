@@ -53,12 +53,6 @@ void expectValid(const MinimalProblem& problem, const FocalPoses& solutions) {
   EXPECT_TRUE(areDistinct(solutions, 1e-9));
 }
 
-// Both lists hold the same poses.
-void expectEqual(const FocalPoses& a, const FocalPoses& b, double tolerance) {
-  EXPECT_EQ(a.size(), b.size());
-  for (const FocalPose& pose : a) EXPECT_TRUE(hasFocalPoseNear(b, pose, tolerance));
-}
-
 class H70fLevels : public testing::TestWithParam<SimdLevel> {
  protected:
   // Counts how often the truth is found and how often the set is complete.
@@ -213,8 +207,8 @@ TEST_P(H70fPatterns, RecognizesSharedCentres) {
     unnumbered.rays[j].camera = static_cast<int>(j);
     inexact.rays[j].centre += 1e-12 * random.direction();
   }
-  expectEqual(solve(unnumbered), expected, 1e-9);
-  expectEqual(solve(inexact), expected, 1e-6);
+  expectSamePoses(solve(unnumbered), expected, 1e-9);
+  expectSamePoses(solve(inexact), expected, 1e-6);
 }
 
 // Solved by other means, see recordH70f.
@@ -225,7 +219,7 @@ TEST_P(H70fPatterns, FindsAllRecordedSolutions) {
   for (const GoldenProblem& recorded : problems) {
     const FocalPoses solutions = solve(recorded.problem);
     expectValid(recorded.problem, solutions);
-    expectEqual(solutions, recorded.solutions, 1e-6);
+    expectSamePoses(solutions, recorded.solutions, 1e-6);
   }
 }
 
@@ -235,7 +229,7 @@ TEST_P(H70fPatterns, DoesNotDependOnTheOrderOfTheRays) {
     MinimalProblem problem = makeMinimalProblem(random, GetParam(), 0);
     const FocalPoses expected = solve(problem);
     std::reverse(problem.rays.begin(), problem.rays.end());
-    expectEqual(solve(problem), expected, 1e-6);
+    expectSamePoses(solve(problem), expected, 1e-6);
   }
 }
 
@@ -304,10 +298,10 @@ TEST(H70f, PublicFunctionReadsTheAdapter) {
   Random random(testSeed(), 80);
   MinimalProblem problem = makeMinimalProblem(random, {2, 2, 1, 1, 1}, 0);
   const FocalPoses solutions = hybrid_pose::h70f(makeAdapter(problem));
-  expectEqual(solutions, solve(problem), 1e-9);
+  expectSamePoses(solutions, solve(problem), 1e-9);
   EXPECT_TRUE(hasFocalPoseNear(solutions, problem.truth, kRecovered));
   problem.rays.insert(problem.rays.begin(), problem.rays[3]);
-  expectEqual(hybrid_pose::h70f(makeAdapter(problem), {{7, 1, 2, 3, 4, 5, 6}, {}}), solutions, 1e-6);
+  expectSamePoses(hybrid_pose::h70f(makeAdapter(problem), {{7, 1, 2, 3, 4, 5, 6}, {}}), solutions, 1e-6);
 }
 
 }  // namespace

@@ -90,7 +90,6 @@ TEST(P3p, FindsDoubleSolutions) {
   EXPECT_GE(countFound(2000, 1e-3, aboveVertex), 1960);
 }
 
-// Homogeneous image points are bearing vectors, of any angle below 90 degrees.
 // One point is far from the other two, the more so the thinner the triangle. Whatever is returned is a rotation to rounding.
 TEST(P3p, PosesFromThinTrianglesAreRotations) {
   int poses = 0;
@@ -113,6 +112,7 @@ TEST(P3p, PosesFromThinTrianglesAreRotations) {
   EXPECT_GT(poses, 100) << "there is something to check";
 }
 
+// Homogeneous image points are bearing vectors, of any angle below 90 degrees.
 TEST(P3p, TakesBearingVectors) {
   Random random(testSeed(), 41);
   for (int trial = 0; trial < 200; ++trial) {
