@@ -50,6 +50,8 @@ expect_error() {
 mkdir empty
 expect_error "nowhere" "$program" nowhere
 expect_error "empty/reference" "$program" --output results empty
+mkdir -p mapless/maps && cp -r all/reference mapless
+expect_error "mapless/maps is empty" "$program" --output results mapless
 expect_error "no reference.txt" sh "$script" --work other --build "$build" --prepared empty
 expect_error "no such folder" sh "$script" --work other --build "$build" --prepared nowhere
 expect_error "no option --nonsense" sh "$script" --nonsense

@@ -109,5 +109,6 @@ std::vector<PhotoMap> readPhotoMaps(const std::string& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(folder) / "maps")) paths.insert(entry.path());
   std::vector<PhotoMap> maps;
   for (const fs::path& path : paths) maps.push_back(readMap(path, reference));
+  if (maps.empty()) throw std::runtime_error(folder + "/maps is empty");
   return maps;
 }

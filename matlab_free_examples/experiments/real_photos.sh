@@ -72,12 +72,14 @@ match_images() {
 }
 
 reconstruct_all() {
-  mkdir -p "$set/all" "$set/reference"
+  mkdir -p "$set/all" "$set/text"
   must_colmap mapper --database_path "$set/database.db" --image_path "$images" --output_path "$set/all"
   model=$(largest_model "$set/all")
   [ -n "$model" ] || die "$images: COLMAP finds no reconstruction"
-  must_colmap model_converter --input_path "$model" --output_path "$set/reference" --output_type TXT
-  names_of "$set/reference" > "$set/names.txt"
+  cp -r "$model" "$set/reference"
+  # The text is for this script alone: COLMAP does not read names with blanks from it.
+  must_colmap model_converter --input_path "$model" --output_path "$set/text" --output_type TXT
+  names_of "$set/text" > "$set/names.txt"
 }
 
 # make_map NAME: a map of the images in kept.txt, with the reference's poses and points of their own.
@@ -105,7 +107,7 @@ choose_partners() {
     END {
       srand(seed)
       for (i in shared) if (i != id && shared[i] >= 15) printf "%.9f %s\n", rand(), names[i]
-    }' "$set/reference/images.txt" "$set/reference/points3D.txt" | sort | head -n "$2" | cut -d ' ' -f 2- > "$set/kept.txt"
+    }' "$set/text/images.txt" "$set/text/points3D.txt" | sort | head -n "$2" | cut -d ' ' -f 2- > "$set/kept.txt"
   [ "$(wc -l < "$set/kept.txt")" = "$2" ]
 }
 
