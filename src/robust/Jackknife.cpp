@@ -1,13 +1,11 @@
 #include "robust/Jackknife.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
 #include "correspondences/PaddedValues.hpp"
-#include "robust/FixedSize.hpp"
 #include "robust/toPlain.hpp"
 
 namespace hybridgv {
@@ -93,21 +91,20 @@ class GroupSums {
 };
 
 // The changes of the pose without each group.
-template <int N>
 class Changes {
  public:
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Matrix = Eigen::Matrix<double, N, N>;
-
   // `covariance`: the inverse of the information of all.
-  explicit Changes(const Matrix& covariance) : covariance_(covariance) {}
+  explicit Changes(const FullParameterMatrix& covariance) : covariance_(covariance), root_(covariance.llt().matrixL()) {}
 
   void add(const NormalEquations& group, Intrinsics estimated) {
-    const Matrix information = estimatedPart(group, estimated).template topLeftCorner<N, N>();
-    const double part = covariance_.cwiseProduct(information).sum();  // of the information, at most N
+    const int size = estimated.parameters();
+    FullParameterMatrix information = FullParameterMatrix::Zero();
+    information.topLeftCorner(size, size) = estimatedPart(group, estimated);
+    const double part = covariance_.cwiseProduct(information).sum();  // of the information, at most `size`
     if (!(part > 0)) return;                                          // no inliers
-    const Vector gradient = estimatedGradient(group, estimated).template head<N>();
-    Vector change;
+    FullParameterVector gradient = FullParameterVector::Zero();
+    gradient.head(size) = estimatedGradient(group, estimated);
+    FullParameterVector change;
     if (part < kSmallPart)
       change = changeBySeries(information, gradient);
     else if (!changeBySolving(information, gradient, change))
@@ -116,55 +113,51 @@ class Changes {
     ++count_;
   }
   int count() const { return count_; }
-  Matrix covariance() const { return sum_ * ((count_ - 1.0) / count_); }
+  FullParameterMatrix covariance() const { return sum_ * ((count_ - 1.0) / count_); }
 
  private:
   // (H - H_k)^-1 g = C (g + H_k C (g + H_k C (g + ..
-  Vector changeBySeries(const Matrix& information, const Vector& gradient) const {
-    Vector change = covariance_ * gradient;
+  FullParameterVector changeBySeries(const FullParameterMatrix& information, const FullParameterVector& gradient) const {
+    FullParameterVector change = covariance_ * gradient;
     for (int term = 0; term < kTerms; ++term) change = covariance_ * (gradient + information * change);
     return change;
   }
-  bool changeBySolving(const Matrix& information, const Vector& gradient, Vector& change) const {
-    const Eigen::LLT<Matrix> cholesky(covariance_);
-    const Matrix L = cholesky.matrixL();
-    const Eigen::LLT<Matrix> rest(Matrix::Identity() - L.transpose() * information * L);
+  bool changeBySolving(const FullParameterMatrix& information, const FullParameterVector& gradient,
+                       FullParameterVector& change) const {
+    const Eigen::LLT<FullParameterMatrix> rest(FullParameterMatrix::Identity() - root_.transpose() * information * root_);
     if (rest.info() != Eigen::Success || rest.matrixLLT().diagonal().minCoeff() < kLeastRest) return false;
-    change = L * rest.solve(L.transpose() * gradient);
+    change = root_ * rest.solve(root_.transpose() * gradient);
     return true;
   }
 
   static constexpr double kSmallPart = 0.2;
   static constexpr int kTerms = 3;
 
-  Matrix covariance_, sum_ = Matrix::Zero();
+  FullParameterMatrix covariance_, root_, sum_ = FullParameterMatrix::Zero();
   int count_ = 0;
 };
 
-template <int N>
-bool jackknife(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
-               ParameterMatrix& covariance) {
-  using Matrix = Eigen::Matrix<double, N, N>;
-  const Eigen::LLT<Matrix> cholesky{Matrix(covariance)};  // C = L L^T
-  if (cholesky.info() != Eigen::Success) return true;
-  Changes<N> changes{Matrix(covariance)};
+Changes changesWithoutGroups(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
+                             const FullParameterMatrix& covariance) {
+  Changes changes(covariance);
   GroupSums sums(problem, pose);
   if (problem.kinds.rays)
     for (const Members& members : membersOf(groups.rays)) changes.add(sums.ofRays(members), problem.estimated);
   if (problem.kinds.points)
     for (const Members& members : membersOf(groups.points)) changes.add(sums.ofPoints(members), problem.estimated);
-  if (changes.count() < 2) return true;
+  return changes;
+}
 
-  // In coordinates in which C is the identity, the largest eigenvalue of the sum of G random matrices exceeds 1 by chance, up to
-  // (1 + sqrt(N/G))^2.
-  const Matrix L = cholesky.matrixL();
-  const Matrix half = L.template triangularView<Eigen::Lower>().solve(changes.covariance());
-  const Matrix white = L.template triangularView<Eigen::Lower>().solve(Matrix(half.transpose()));
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(white);
-  const double root = std::sqrt(static_cast<double>(N) / changes.count()), byChance = root * (2 + root);
-  const Eigen::Matrix<double, N, 1> factors = (eigen.eigenvalues().array() - byChance).cwiseMax(1);
-  covariance = L * eigen.eigenvectors() * factors.asDiagonal() * eigen.eigenvectors().transpose() * L.transpose();
-  return covariance.allFinite();
+// In coordinates in which the covariance C = L L^T is the identity, the largest eigenvalue of the sum of G random matrices over N
+// parameters exceeds 1 by chance, up to (1 + sqrt(N/G))^2.
+FullParameterMatrix inflated(const FullParameterMatrix& L, const Changes& changes, int parameters) {
+  const auto lower = L.triangularView<Eigen::Lower>();
+  const FullParameterMatrix half = lower.solve(changes.covariance());
+  const FullParameterMatrix halfTransposed = half.transpose();
+  const Eigendecomposition white = eigendecomposition(lower.solve(halfTransposed));
+  const double root = std::sqrt(static_cast<double>(parameters) / changes.count()), byChance = root * (2 + root);
+  const FullParameterVector factors = (white.values.array() - byChance).cwiseMax(1);
+  return L * white.withValues(factors) * L.transpose();
 }
 
 }  // namespace
@@ -172,8 +165,14 @@ bool jackknife(const LeastSquaresProblem& problem, const QueryPose& pose, const 
 bool jackknifeCovariance(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
                          const ParameterMatrix& information, ParameterMatrix& covariance) {
   if (!invertInformation(information, covariance)) return false;
-  return withFixedSize(problem.estimated.parameters(),
-                       [&](auto size) { return jackknife<decltype(size)::value>(problem, pose, groups, covariance); });
+  const int size = problem.estimated.parameters();
+  const FullParameterMatrix extended = extendedByIdentity(covariance);
+  const Eigen::LLT<FullParameterMatrix> cholesky(extended);
+  if (cholesky.info() != Eigen::Success) return true;
+  const Changes changes = changesWithoutGroups(problem, pose, groups, extended);
+  if (changes.count() < 2) return true;
+  covariance = inflated(cholesky.matrixL(), changes, size).topLeftCorner(size, size);
+  return covariance.allFinite();
 }
 
 }  // namespace robust

@@ -2,40 +2,39 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "robust/FixedSize.hpp"
-
 namespace hybridgv {
 namespace robust {
-namespace {
 
 using correspondences::kFocalPoseParameters;
 using correspondences::kPoseParameters;
 
-template <int N>
-bool invertFixed(const Eigen::Matrix<double, N, N>& information, ParameterMatrix& covariance) {
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Matrix = Eigen::Matrix<double, N, N>;
-  // Smallest eigenvalue of the information in units in which every parameter alone has information 1.
-  constexpr double kSmallest = 1e-13;
-  const Vector diagonal = information.diagonal();
-  if (!information.allFinite() || !(diagonal.minCoeff() > 0)) return false;
-  const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Matrix correlation = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(correlation);
-  if (!(eigen.eigenvalues()[0] > kSmallest)) return false;
-  const Matrix inverse =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
-  return covariance.allFinite();
+FullParameterMatrix extendedByIdentity(const ParameterMatrix& matrix) {
+  FullParameterMatrix result = FullParameterMatrix::Identity();
+  result.topLeftCorner(matrix.rows(), matrix.cols()) = matrix;
+  return result;
 }
 
-}  // namespace
+Eigendecomposition eigendecomposition(const FullParameterMatrix& matrix) {
+  const Eigen::SelfAdjointEigenSolver<FullParameterMatrix> eigen(matrix);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+FullParameterMatrix Eigendecomposition::withValues(const FullParameterVector& others) const {
+  return vectors * others.asDiagonal() * vectors.transpose();
+}
 
 bool invertInformation(const ParameterMatrix& information, ParameterMatrix& covariance) {
-  return withFixedSize(static_cast<int>(information.rows()), [&](auto size) {
-    constexpr int N = decltype(size)::value;
-    return invertFixed<N>(Eigen::Matrix<double, N, N>(information), covariance);
-  });
+  // Smallest eigenvalue of the information in units in which every parameter alone has information 1.
+  constexpr double kSmallest = 1e-13;
+  const FullParameterMatrix extended = extendedByIdentity(information);
+  const FullParameterVector diagonal = extended.diagonal();
+  if (!extended.allFinite() || !(diagonal.minCoeff() > 0)) return false;
+  const FullParameterVector scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigendecomposition eigen = eigendecomposition(scale.asDiagonal() * extended * scale.asDiagonal());
+  if (!(eigen.values[0] > kSmallest)) return false;
+  const FullParameterMatrix inverse = scale.asDiagonal() * eigen.withValues(eigen.values.cwiseInverse()) * scale.asDiagonal();
+  covariance = inverse.topLeftCorner(information.rows(), information.cols());
+  return covariance.allFinite();
 }
 
 ParameterMatrix withPositionsTimes(double factor, ParameterMatrix matrix) {

@@ -21,6 +21,24 @@ using ParameterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor
 // As the public results have it: over the parameters of a FocalPose.
 using FocalPoseMatrix = std::array<double, correspondences::kFocalPoseParameters * correspondences::kFocalPoseParameters>;
 
+// Of the size that fits all parameters, which the compiler knows.
+using FullParameterMatrix = Eigen::Matrix<double, correspondences::kMostParameters, correspondences::kMostParameters>;
+using FullParameterVector = Eigen::Matrix<double, correspondences::kMostParameters, 1>;
+
+// With the identity in the rows and columns that the matrix lacks: they take no part in decompositions.
+FullParameterMatrix extendedByIdentity(const ParameterMatrix& matrix);
+
+// Eigenvalues, the smallest first, and eigenvectors: matrix = vectors diag(values) vectors^T.
+struct Eigendecomposition {
+  // The matrix with the same eigenvectors and other eigenvalues.
+  FullParameterMatrix withValues(const FullParameterVector& others) const;
+
+  FullParameterVector values;
+  FullParameterMatrix vectors;
+};
+
+Eigendecomposition eigendecomposition(const FullParameterMatrix& matrix);
+
 // The inverse of an information matrix; false if the data do not fix all parameters (to working precision).
 bool invertInformation(const ParameterMatrix& information, ParameterMatrix& covariance);
 
