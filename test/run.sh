@@ -8,7 +8,7 @@ sh .ci/install_packages.sh build tests benchmarks examples program python pictur
 jobs=$(nproc)
 strict=OFF
 [ "$CI" != true ] || strict=ON
-cmake -S . -B build/test -G Ninja -DHYBRIDGV_WERROR=$strict -DHYBRIDGV_REALDATA_DIR="$HYBRIDGV_REALDATA_DIR" \
+cmake -S . -B build/test -G Ninja -DHYBRIDGV_WERROR=$strict -DHYBRIDGV_PRECOMPILED_HEADERS=$strict -DHYBRIDGV_REALDATA_DIR="$HYBRIDGV_REALDATA_DIR" \
   -DHYBRIDGV_GOLDEN_DIR="$HYBRIDGV_GOLDEN_DIR"
 cmake --build build/test -j "$jobs"
 ctest --test-dir build/test -j "$jobs" --output-on-failure "$@"
