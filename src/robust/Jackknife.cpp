@@ -93,8 +93,9 @@ class GroupSums {
 // The changes of the pose without each group.
 class Changes {
  public:
-  // `covariance`: the inverse of the information of all.
-  explicit Changes(const FullParameterMatrix& covariance) : covariance_(covariance), root_(covariance.llt().matrixL()) {}
+  // `covariance`: the inverse of the information of all. `gradient`: of all.
+  Changes(const FullParameterMatrix& covariance, const FullParameterVector& gradient)
+      : covariance_(covariance), root_(covariance.llt().matrixL()), fromMinimum_(covariance * gradient) {}
 
   void add(const NormalEquations& group, Intrinsics estimated) {
     const int size = estimated.parameters();
@@ -104,6 +105,7 @@ class Changes {
     if (!(part > 0)) return;                                          // no inliers
     FullParameterVector gradient = FullParameterVector::Zero();
     gradient.head(size) = estimatedGradient(group, estimated);
+    gradient -= information * fromMinimum_;
     FullParameterVector change;
     if (part < kSmallPart)
       change = changeBySeries(information, gradient);
@@ -134,12 +136,15 @@ class Changes {
   static constexpr int kTerms = 3;
 
   FullParameterMatrix covariance_, root_, sum_ = FullParameterMatrix::Zero();
+  FullParameterVector fromMinimum_;  // of all, to the pose
   int count_ = 0;
 };
 
 Changes changesWithoutGroups(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
-                             const FullParameterMatrix& covariance) {
-  Changes changes(covariance);
+                             const FullParameterMatrix& covariance, const ParameterVector& gradientOfAll) {
+  FullParameterVector gradient = FullParameterVector::Zero();
+  gradient.head(gradientOfAll.size()) = gradientOfAll;
+  Changes changes(covariance, gradient);
   GroupSums sums(problem, pose);
   if (problem.kinds.rays)
     for (const Members& members : membersOf(groups.rays)) changes.add(sums.ofRays(members), problem.estimated);
@@ -163,13 +168,13 @@ FullParameterMatrix inflated(const FullParameterMatrix& L, const Changes& change
 }  // namespace
 
 bool jackknifeCovariance(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
-                         const ParameterMatrix& information, ParameterMatrix& covariance) {
-  if (!invertInformation(information, covariance)) return false;
+                         const Derivatives& all, ParameterMatrix& covariance) {
+  if (!invertInformation(all.information, covariance)) return false;
   const int size = problem.estimated.parameters();
   const FullParameterMatrix extended = extendedByIdentity(covariance);
   const Eigen::LLT<FullParameterMatrix> cholesky(extended);
   if (cholesky.info() != Eigen::Success) return true;
-  const Changes changes = changesWithoutGroups(problem, pose, groups, extended);
+  const Changes changes = changesWithoutGroups(problem, pose, groups, extended, all.gradient);
   if (changes.count() < 2) return true;
   covariance = inflated(cholesky.matrixL(), changes, size).topLeftCorner(size, size);
   return covariance.allFinite();

@@ -175,9 +175,15 @@ LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose&
                        [&](auto size) { return minimizeFixed<decltype(size)::value>(problem, start, options); });
 }
 
+Derivatives derivatives(const LeastSquaresProblem& problem, const QueryPose& pose) {
+  return withFixedSize(problem.estimated.parameters(), [&](auto size) {
+    const auto at = linearize<decltype(size)::value>(problem, pose);
+    return Derivatives{at.gradient, at.hessian};
+  });
+}
+
 ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose& pose) {
-  return withFixedSize(problem.estimated.parameters(),
-                       [&](auto size) { return ParameterMatrix(linearize<decltype(size)::value>(problem, pose).hessian); });
+  return derivatives(problem, pose).information;
 }
 
 ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated) {

@@ -64,7 +64,13 @@ LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLo
 // returned as it is, with converged = false, infinite cost and information 0.
 LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options = {});
 
-// J^T W J at a pose.
+// Half of the first and the second derivative of the cost at a pose: J^T W e and J^T W J.
+struct Derivatives {
+  ParameterVector gradient;
+  ParameterMatrix information;
+};
+Derivatives derivatives(const LeastSquaresProblem& problem, const QueryPose& pose);
+// The second one alone.
 ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose& pose);
 
 // Of the kernels' sums, what belongs to the parameters that are estimated.

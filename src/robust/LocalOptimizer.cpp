@@ -367,7 +367,7 @@ FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
   result.noise = finalNoise(errors);
   const PaddedValues narrowing = treatment.narrowing();
   const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, kinds), narrowing);
-  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, information(inliers, result.pose), result.covariance);
+  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, derivatives(inliers, result.pose), result.covariance);
   leaveOutLevers(likelierInliers(result.noise, kinds), treatment, result);
   return result;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "HybridScene.hpp"
 
@@ -34,20 +35,31 @@ struct Estimate {
   Eigen::Vector3d positionError;
 };
 
-Estimate estimate(const test::HybridScene& scene) {
-  const correspondences::CorrespondenceArrays arrays(scene.adapter(), correspondences::allIndices(scene.bearings.size()),
-                                                     correspondences::allIndices(scene.points.size()));
+correspondences::CorrespondenceArrays arraysOf(const test::HybridScene& scene) {
+  return {scene.adapter(), correspondences::allIndices(scene.bearings.size()), correspondences::allIndices(scene.points.size())};
+}
+
+LeastSquaresProblem problemOf(const correspondences::CorrespondenceArrays& arrays) {
   const KindLoss noise{Loss::Quadratic, kNoise, 1 / (kNoise * kNoise)};
-  const LeastSquaresProblem problem = makeProblem(arrays, noise, noise);
-  const QueryPose truth = arrays.normalization().apply(scene.truth);
-  const QueryPose minimum = minimize(problem, truth).pose;
+  return makeProblem(arrays, noise, noise);
+}
+
+JackknifeGroups groupsOf(const test::HybridScene& scene) {
   JackknifeGroups groups;
   for (const int camera : scene.cameras) groups.rays.push_back(camera);
   groups.points = correspondences::allIndices(scene.points.size());
+  return groups;
+}
+
+Estimate estimate(const test::HybridScene& scene) {
+  const correspondences::CorrespondenceArrays arrays = arraysOf(scene);
+  const LeastSquaresProblem problem = problemOf(arrays);
+  const QueryPose truth = arrays.normalization().apply(scene.truth);
+  const QueryPose minimum = minimize(problem, truth).pose;
   Estimate result;
-  const ParameterMatrix information = robust::information(problem, minimum);
-  EXPECT_TRUE(invertInformation(information, result.byInformation));
-  EXPECT_TRUE(jackknifeCovariance(problem, minimum, groups, information, result.covariance));
+  const Derivatives at = derivatives(problem, minimum);
+  EXPECT_TRUE(invertInformation(at.information, result.byInformation));
+  EXPECT_TRUE(jackknifeCovariance(problem, minimum, groupsOf(scene), at, result.covariance));
   result.positionError = minimum.position - truth.position;
   return result;
 }
@@ -97,6 +109,27 @@ TEST(Jackknife, ShowsErrorsThatTheRaysOfACameraShare) {
   EXPECT_LT(calibration.byJackknife, 0.5 * calibration.byInformation);
 }
 
+// Most points are one group. From beside the minimum, the others have a long way there, which is not what that group tells.
+TEST(Jackknife, IsThatOfTheMinimumAlsoBesideIt) {
+  test::Random random(test::testSeed(), 144);
+  for (int i = 0; i < 20; ++i) {
+    const test::HybridScene scene = makeScene(random, 0);
+    const correspondences::CorrespondenceArrays arrays = arraysOf(scene);
+    const LeastSquaresProblem problem = problemOf(arrays);
+    const QueryPose minimum = minimize(problem, arrays.normalization().apply(scene.truth)).pose;
+    ParameterMatrix there, beside;
+    JackknifeGroups groups = groupsOf(scene);
+    for (std::size_t k = 0; k < groups.points.size(); ++k)
+      if (k % 10 != 0) groups.points[k] = 0;
+    ASSERT_TRUE(jackknifeCovariance(problem, minimum, groups, derivatives(problem, minimum), there));
+    QueryPose pose = minimum;
+    pose.focalLength *= 1 + 2 * std::sqrt(there(6, 6));
+    pose.position += 2 * std::sqrt(there(5, 5)) * pose.rotation.col(2);
+    ASSERT_TRUE(jackknifeCovariance(problem, pose, groups, derivatives(problem, pose), beside));
+    EXPECT_NEAR(std::sqrt(beside(6, 6) / there(6, 6)), 1, 0.3);
+  }
+}
+
 TEST(Jackknife, HasNoResultIfTheInformationHasNoInverse) {
   test::Random random(test::testSeed(), 143);
   test::SceneOptions options;
@@ -107,7 +140,7 @@ TEST(Jackknife, HasNoResultIfTheInformationHasNoInverse) {
   const LeastSquaresProblem problem = makeProblem(arrays, {}, {});
   const QueryPose truth = arrays.normalization().apply(scene.truth);
   ParameterMatrix covariance;
-  EXPECT_FALSE(jackknifeCovariance(problem, truth, {{0, 1, 2}, {}}, information(problem, truth), covariance));
+  EXPECT_FALSE(jackknifeCovariance(problem, truth, {{0, 1, 2}, {}}, derivatives(problem, truth), covariance));
 }
 
 }  // namespace
