@@ -1,6 +1,5 @@
 #include "Commands.hpp"
 
-#include <hybridgv/instructionSet.hpp>
 #include <hybridgv/types.hpp>
 
 #include <cstdio>
@@ -27,7 +26,7 @@ constexpr const char* kHelp =
     "\n"
     "Options:\n"
     "  -h,--help     print this help message and exit; hybridgv COMMAND --help prints that of a command\n"
-    "  --version     print the version and the instruction set of the kernels, and exit\n";
+    "  --version     print the version and exit\n";
 
 }  // namespace
 
@@ -41,7 +40,7 @@ int run(const std::string& command, std::vector<std::string> arguments) {
   if (command == "--help" || command == "-h" || command == "help")
     std::fputs(kHelp, stdout);
   else if (command == "--version")
-    std::printf("hybridgv %s\nkernels: %s\n", hybridgv::version(), hybridgv::instructionSet());
+    std::printf("hybridgv %s\n", hybridgv::version());
   else
     return std::fprintf(stderr, "hybridgv: there is no command %s; hybridgv --help lists them\n", quoted(command).c_str()),
            kWrongUsage;

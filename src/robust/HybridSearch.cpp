@@ -21,7 +21,7 @@ int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / k
 
 // Gain of the log-likelihood for which an optimization is repeated.
 constexpr double kLeastGain = 1;
-constexpr double kDistanceFactors[] = {1.25, 1.6, 0.8, 0.6};
+constexpr std::initializer_list<double> kDistanceFactors = {1.25, 1.6, 0.8, 0.6};
 // A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
 constexpr double kUnoptimizedShare = 0.5;
 // A standard deviation of log f below which the linear theory behind it can be relied on.
@@ -288,10 +288,10 @@ void HybridSearch::replaceIfLikelier(const QueryPose& pose, Model& model) const 
 
 // Distance and focal length have almost the same effect on the images, so that the likelihood has local optima along both. The
 // right one is found from nearer or farther away, the focal length keeping the images' size. A known focal length has no such optima.
-void HybridSearch::escapeLocalOptimum(Model& model) const {
+void HybridSearch::escapeLocalOptimum(Model& model, std::initializer_list<double> distanceFactors) const {
   if (!estimated_.focalLength) return;
   model.logLikelihood = optimizer_.logLikelihood(model.pose);
-  for (const double factor : kDistanceFactors)
+  for (const double factor : distanceFactors)
     for (double before = -std::numeric_limits<double>::infinity(); model.logLikelihood > before + kLeastGain;) {
       before = model.logLikelihood;
       const Kinds kinds = optimizer_.moreThanChance(model.pose);
@@ -343,25 +343,42 @@ bool HybridSearch::isDone() {
   return stopReason_ != sac::StopReason::NotStarted;
 }
 
-// The wide truncations of `refine` can leave a good pose when the distortion is free.
-void HybridSearch::settleAnew(Model& model) const {
-  model.logLikelihood = optimizer_.logLikelihood(model.pose);
-  replaceIfLikelier(optimizer_.settle(model.pose, optimizer_.moreThanChance(model.pose)), model);
+// The best model to full precision.
+FinalPose HybridSearch::polishBest() {
+  FinalPose result = optimizer_.finish(optimumOfBest());
+  best_.pose = result.pose;
+  return findBetterBeside(result) ? optimizer_.finish(optimizer_.polish(best_.pose)) : result;
 }
 
 // Keeps the distortion only if the data speak for it.
-void HybridSearch::chooseLens() {
-  if (optimizer_.logEvidenceForDistortion(best_.pose) > options_.distortionEvidence) return;
+Optimum HybridSearch::optimumOfBest() {
+  constexpr int kFewRounds = 2;
+  const Optimum result = optimizer_.polish(best_.pose);
+  if (!estimated_.radial || optimizer_.logEvidenceForDistortion(result) > options_.distortionEvidence) return result;
+  best_.pose = result.pose;
+  takeOutDistortion();
+  return optimizer_.polish(best_.pose, kFewRounds);
+}
+
+void HybridSearch::takeOutDistortion() {
   estimated_.radial = false;
   optimizer_.forgetDistortion();
   significance_.setParameters(estimated_.parameters());
   best_.pose.distortion = 0;
-  settleAnew(best_);
+  if (optimizer_.focalLengthIsSure(best_.pose)) return;
+  escapeLocalOptimum(best_, kDistanceFactors);
   findThresholds(best_);
-  if (!optimizer_.focalLengthIsSure(best_.pose)) {
-    escapeLocalOptimum(best_);
-    findThresholds(best_);
-  }
+}
+
+// Where groups of correspondences disagree by much more than their noise, the likelihood has optima near each other, one for each part of
+// them that is believed. The best model becomes a better one of these, if it is found from nearer or farther away.
+bool HybridSearch::findBetterBeside(const FinalPose& pose) {
+  constexpr double kDisagreement = 2, kDeviations = 2, kLargestStep = 0.25;
+  if (!pose.isRegular || !(pose.disagreement > kDisagreement)) return false;
+  const double step = std::min(kDeviations * std::sqrt(varianceOfLogFocalLength(pose.covariance, estimated_)), kLargestStep);
+  const double before = optimizer_.logLikelihood(best_.pose);
+  escapeLocalOptimum(best_, {std::exp(step), std::exp(-step)});
+  return best_.logLikelihood > before + kLeastGain;
 }
 
 // The noise that is found at a pose depends on what counts as an inlier. So wrong rays, where there are many, can hold a pose near the
@@ -385,13 +402,11 @@ void HybridSearch::tryNarrowerThreshold(Model& model) {
 
 FinalPose HybridSearch::finish(bool optimize) {
   if (optimize) tryNarrowerThreshold(best_);
-  if (optimize && estimated_.radial) settleAnew(best_);
   if (optimize && !optimizer_.focalLengthIsSure(best_.pose)) {
-    escapeLocalOptimum(best_);
+    escapeLocalOptimum(best_, kDistanceFactors);
     findThresholds(best_);
   }
-  if (optimize && estimated_.radial) chooseLens();
-  FinalPose result = optimizer_.polish(best_.pose, optimize);
+  FinalPose result = optimize ? polishBest() : optimizer_.finish(optimizer_.keep(best_.pose));
   if (part_) result = fitToAll(result.pose, optimize);
   best_.pose = result.pose;
   scorer_.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
@@ -405,7 +420,7 @@ FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   scorer.setThresholds(scorer_.thresholds());
   const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
   const LocalOptimizer optimizer = makeOptimizer(scorer, chance);
-  const FinalPose result = optimize ? optimizer.polishNear(pose) : optimizer.polish(pose, false);
+  const FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
   best_.pose = result.pose;
   scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   judgeAll(scorer);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -100,9 +101,11 @@ class HybridSearch {
   void findThresholds(Model& model);
   void tryNarrowerThreshold(Model& model);
   void replaceIfLikelier(const QueryPose& pose, Model& model) const;
-  void escapeLocalOptimum(Model& model) const;
-  void settleAnew(Model& model) const;
-  void chooseLens();
+  void escapeLocalOptimum(Model& model, std::initializer_list<double> distanceFactors) const;
+  FinalPose polishBest();
+  Optimum optimumOfBest();
+  bool findBetterBeside(const FinalPose& pose);
+  void takeOutDistortion();
   void setBest(const Model& model, bool isSignificant);
   void learnFrom(const Model& model);
   bool isWorthConsidering(const Candidate& candidate);

@@ -33,8 +33,9 @@ constexpr double kSureDeviation = 0.05;
 // The errors of truncated least squares count as if their deviation were the truncation, which is several times too much. The prior of
 // the distortion must count less in the same way.
 constexpr double kPriorOfTruncated = 0.05;
-// Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
-constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
+// Ratios of deviations, see allowForHiddenErrors. Those of the hidden errors were found on real models, and the number of a camera's rays
+// whose noise counts as much.
+constexpr double kClearlyLarger = 2.5, kLeastHidden = 1.4, kMostHidden = 3, kManyRays = 200;
 
 std::size_t countBelow(const std::vector<double>& squaredErrors, double threshold) {
   const auto isBelow = [&](double e) { return e < threshold * threshold; };
@@ -90,13 +91,28 @@ LeastSquaresProblem narrowed(LeastSquaresProblem problem, const PaddedValues& na
   return problem;
 }
 
+// Of how many rays the camera of a ray has, the mean over all rays.
+double raysOfOneCamera(const std::vector<int>& cameras) {
+  std::vector<double> counts;
+  for (const int camera : cameras) {
+    const auto number = static_cast<std::size_t>(camera);
+    if (number >= counts.size()) counts.resize(number + 1);
+    ++counts[number];
+  }
+  const double all = static_cast<double>(cameras.size());
+  return all > 0 ? std::inner_product(counts.begin(), counts.end(), counts.begin(), 0.) / all : 0;
+}
+
+// The noise of many rays of one camera averages out, the errors of its pose and focal length do not: the more rays, the less each tells.
+double hiddenShare(double raysOfCamera) { return std::min(kLeastHidden * std::sqrt(1 + raysOfCamera / kManyRays), kMostHidden); }
+
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
-// least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as somewhat
-// worse, unless one is clearly the noisier.
-void allowForHiddenErrors(double& ray, double& point) {
+// least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as worse by the
+// hidden share, unless one is clearly the noisier.
+void allowForHiddenErrors(double hiddenShare, double& ray, double& point) {
   const double larger = std::max(ray, point);
   if (larger > kClearlyLarger * std::min(ray, point)) return;
-  ray = kHiddenShare * larger;
+  ray = hiddenShare * larger;
   point = larger;
 }
 
@@ -107,6 +123,7 @@ LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chan
     : scorer_(scorer),
       chance_(chance),
       groups_(std::move(groups)),
+      hiddenShare_(hiddenShare(raysOfOneCamera(groups_.rays))),
       minFocalLength_(minFocalLength),
       maxFocalLength_(maxFocalLength),
       estimated_(estimated),
@@ -298,7 +315,7 @@ Noise LocalOptimizer::noise(const SquaredErrors& errors) const {
 }
 
 Noise LocalOptimizer::mixtures(PerKind<double> deviations, const SquaredErrors& errors) const {
-  if (!errors.rays.empty() && !errors.points.empty()) allowForHiddenErrors(deviations.rays, deviations.points);
+  if (!errors.rays.empty() && !errors.points.empty()) allowForHiddenErrors(hiddenShare_, deviations.rays, deviations.points);
   const PerKind<double>& bound = scorer_.bounds();
   const double ray = std::min(kDeviationsOfAll * deviations.rays, bound.rays);
   const double point = std::min(kDeviationsOfAll * deviations.points, bound.points);
@@ -341,35 +358,55 @@ double LocalOptimizer::priorCost(const QueryPose& pose) const {
   return lens_.prior.cost(pose.distortion) + focalLengthPrior_.cost(pose.focalLength);
 }
 
-double LocalOptimizer::logEvidenceForDistortion(const QueryPose& pose) const {
-  const Kinds kinds = moreThanChance(pose);
-  const Noise at = finalNoise(squaredErrors(pose, kinds));
+double LocalOptimizer::logEvidenceForDistortion(const Optimum& optimum) const {
+  const PaddedValues narrowing = optimum.treatment.narrowing();
+  const LeastSquaresProblem inliers = narrowed(likelierInliers(optimum.noise, optimum.kinds), narrowing);
   ParameterMatrix covariance;
-  if (!invertInformation(information(likelierInliers(at, kinds), pose), covariance))
-    return -std::numeric_limits<double>::infinity();
-  return logEvidence(pose.distortion, std::sqrt(varianceOfDistortion(covariance)), lens_.prior);
+  if (!invertInformation(information(inliers, optimum.pose), covariance)) return -std::numeric_limits<double>::infinity();
+  return logEvidence(optimum.pose.distortion, std::sqrt(varianceOfDistortion(covariance)), lens_.prior);
 }
 
-FinalPose LocalOptimizer::polishNear(const QueryPose& start) const {
-  return polish(likeliest(start, moreThanChance(start), 1, {4, 1e-8}), false);
+Optimum LocalOptimizer::optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const {
+  SquaredErrors errors = squaredErrors(pose, kBothKinds);
+  treatment.leaveOut(errors.rays);
+  return {pose, kinds, treatment, finalNoise(errors)};
 }
 
-FinalPose LocalOptimizer::polish(const QueryPose& start, bool optimize) const {
-  FinalPose result;
-  result.pose = start;
+Optimum LocalOptimizer::keep(const QueryPose& pose) const {
+  return optimumAt(pose, moreThanChance(pose), RayTreatment(scorer_.arrays().rays().size()));
+}
+
+Optimum LocalOptimizer::polishNear(const QueryPose& start) const {
+  return keep(likeliest(start, moreThanChance(start), 1, {4, 1e-8}));
+}
+
+Optimum LocalOptimizer::polish(const QueryPose& start, int rounds) const {
   const Kinds kinds = moreThanChance(start);
   RayTreatment treatment(scorer_.arrays().rays().size());
-  const int rounds = estimated_.focalLength ? 3 : 2;  // a focal length that is not free gives the levers less to move
-  if (optimize) result.pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, rounds, {20, 1e-8}, treatment);
-  SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
-  treatment.leaveOut(errors.rays);
-  result.refusedRays = treatment.refused();
-  result.noise = finalNoise(errors);
-  const PaddedValues narrowing = treatment.narrowing();
-  const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, kinds), narrowing);
-  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, derivatives(inliers, result.pose), result.covariance);
-  leaveOutLevers(likelierInliers(result.noise, kinds), treatment, result);
+  if (!estimated_.focalLength) rounds = std::min(rounds, 2);  // one that is not free gives the levers less to move
+  const QueryPose pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, rounds, {20, 1e-8}, treatment);
+  return optimumAt(pose, kinds, treatment);
+}
+
+FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
+  FinalPose result;
+  result.pose = optimum.pose;
+  result.noise = optimum.noise;
+  result.refusedRays = optimum.treatment.refused();
+  const PaddedValues narrowing = optimum.treatment.narrowing();
+  const LeastSquaresProblem inliers = likelierInliers(optimum.noise, optimum.kinds);
+  findCovariance(narrowed(inliers, narrowing), result);
+  leaveOutLevers(inliers, optimum.treatment, result);
   return result;
+}
+
+void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const {
+  const Derivatives at = derivatives(inliers, result.pose);
+  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, at, result.covariance);
+  ParameterMatrix ofIndependentErrors;
+  if (result.isRegular && estimated_.focalLength && invertInformation(at.information, ofIndependentErrors))
+    result.disagreement =
+        varianceOfLogFocalLength(result.covariance, estimated_) / varianceOfLogFocalLength(ofIndependentErrors, estimated_);
 }
 
 }  // namespace robust

@@ -15,11 +15,20 @@ namespace robust {
 using SquaredErrors = PerKind<std::vector<double>>;
 using Noise = PerKind<ErrorMixture>;
 
+// An optimum of the likelihood with what was found on the way to it.
+struct Optimum {
+  QueryPose pose;
+  Kinds kinds;  // that were used
+  RayTreatment treatment;
+  Noise noise;
+};
+
 struct FinalPose {
   QueryPose pose;
   Noise noise;
   bool isRegular = false;                // the inliers fix all parameters
   ParameterMatrix covariance;            // for this noise, and for errors that groups of inliers share (Jackknife.hpp)
+  double disagreement = 1;               // variance of log f over that for independent errors
   double deviationWithoutLevers = 0;     // of log f, if rays with large leverages are left out
   std::vector<std::size_t> refusedRays;  // are no inliers, whatever their errors
 };
@@ -35,11 +44,15 @@ class LocalOptimizer {
   QueryPose refine(const QueryPose& start) const;
   // To a local optimum of the likelihood; the noise of each kind is estimated on the way.
   QueryPose settle(const QueryPose& start, const Kinds& kinds) const;
-  // The same to full precision, then with single rays kept from deciding alone (Levers.hpp, Leverage.hpp). Without `optimize` only
-  // the noise and the covariance of the start.
-  FinalPose polish(const QueryPose& start, bool optimize) const;
+  // The same to full precision, and with single rays kept from deciding alone (Levers.hpp, Leverage.hpp), which takes some rounds; fewer
+  // from a pose that has been polished with another lens.
+  Optimum polish(const QueryPose& start, int rounds = 3) const;
   // The same from a pose that was polished for a part of the correspondences.
-  FinalPose polishNear(const QueryPose& start) const;
+  Optimum polishNear(const QueryPose& start) const;
+  // A pose as it is.
+  Optimum keep(const QueryPose& pose) const;
+  // With its covariance.
+  FinalPose finish(const Optimum& optimum) const;
   // Whether the deviation of the focal length is so small that no other optimum can be near.
   bool focalLengthIsSure(const QueryPose& pose) const;
   // Whether the likelihood falls clearly where the focal length is half or twice as large.
@@ -50,7 +63,7 @@ class LocalOptimizer {
   // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const QueryPose& pose) const;
   // logEvidence for the distortion of this optimum of the likelihood; -infinity if its inliers do not fix the pose.
-  double logEvidenceForDistortion(const QueryPose& pose) const;
+  double logEvidenceForDistortion(const Optimum& optimum) const;
   // From now on poses have no distortion.
   void forgetDistortion() { estimated_.radial = false; }
   // The kinds with more inliers than a wrong pose has; both if none has.
@@ -64,6 +77,9 @@ class LocalOptimizer {
   // For these standard deviations of the inliers' errors [px].
   Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors) const;
   LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
+  // With the noise at this pose.
+  Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const;
+  void findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const;
 
   struct Steps {
     int iterations;
@@ -89,6 +105,7 @@ class LocalOptimizer {
   const PoseScorer& scorer_;
   const ChanceModel& chance_;
   JackknifeGroups groups_;
+  double hiddenShare_;  // see allowForHiddenErrors
   double minFocalLength_, maxFocalLength_;
   Intrinsics estimated_;
   Lens lens_;

@@ -137,7 +137,7 @@ TEST(Leverage, OfASingleWrongRaySeldomHoldsAPose) {
     if (!(atMinimum > 100 * kNoise * kNoise) || std::isinf(atMinimum)) continue;
     ++tried;
     const FocalPose start = arrays.normalization().apply(wrong);
-    held += squaredError(optimizer.polish(start, true).pose) < 9 * kNoise * kNoise;
+    held += squaredError(optimizer.polish(start).pose) < 9 * kNoise * kNoise;
     heldWithoutNarrowing += squaredError(optimizer.settle(start, kBothKinds)) < 9 * kNoise * kNoise;
   }
   EXPECT_LE(held, 25);

@@ -168,7 +168,7 @@ TEST(RealProblem, FocalLengthsOfPhotosAreFoundWithTheirDistortion) {
     EXPECT_LT(errors.back(), 2) << problem.imageName;
   }
   std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], 0.9);
+  EXPECT_LT(errors[errors.size() / 2], 0.65);
 }
 
 // Many rays on a flat facade, map images of unknown focal length: the query's must not run away.
@@ -182,6 +182,20 @@ TEST(RealProblem, TheFocalLengthDoesNotRunAwayOnAFlatFacade) {
     const sac::HybridRansacResult result = sac::hybridRansac(problem.adapter, options);
     EXPECT_TRUE(result.success) << "seed " << seed;
     EXPECT_NEAR(result.pose.focalLength, 1109, 33) << "seed " << seed;
+  }
+}
+
+// The same problem has several optima: with distortion, rays of single cameras and points disagree about the focal length.
+TEST(RealProblem, TheBestOfSeveralOptimaIsFoundFromAllSamples) {
+  const std::string path = std::string(HYBRIDGV_REALDATA_DIR) + "/photos/problems/reichstag_runaway_focal.txt";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
+  const sfm::LocalizationProblem problem = sfm::readProblem(path);
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    sac::HybridRansacOptions options = sfm::ransacOptions(problem);
+    options.seed = seed;
+    const sac::HybridRansacResult result = sac::hybridRansac(problem.adapter, options);
+    EXPECT_TRUE(result.success) << "seed " << seed;
+    EXPECT_NEAR(result.simpleRadialFocalLength, 1109, 5) << "seed " << seed;
   }
 }
 

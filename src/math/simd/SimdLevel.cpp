@@ -5,7 +5,6 @@
 #include <string>
 
 #include "CheckArguments.hpp"
-#include "hybridgv/instructionSet.hpp"
 
 namespace hybridgv {
 namespace math {
@@ -51,7 +50,4 @@ SimdLevel simdLevel() {
 }
 
 }  // namespace math
-
-const char* instructionSet() { return math::toString(math::simdLevel()); }
-
 }  // namespace hybridgv
