@@ -25,8 +25,10 @@ class Options:
         time_budget: no new sample after this time [s]
         min_focal_length, max_focal_length: bounds of the focal length [px]
         max_focal_length_deviation: a success needs a standard deviation of the focal length below this share of it
-        radial: find the lens distortion too, and keep it if the data speak for it. Not for cameras that are known, nor for
-            models without distortion (SIMPLE_PINHOLE, PINHOLE).
+        radial: find the lens distortion too, and keep it if the data speak for it. Not for cameras that are known; for models
+            without distortion (SIMPLE_PINHOLE, PINHOLE) not by localize, but by what reads pixels of a map's images or of a
+            database (Map.localize, register_images, hybridgv.hloc): their results say distortion_is_lost, because the model
+            has no place for it.
         image_radius: half the image's diagonal [px]; 0: from the camera's size
         distortion_scale, distortion_evidence, distortion_hypotheses: how distortion is looked for (HybridRansacOptions)
         prior_deviation: how far a focal length may be wrong, as a share of it, where camera_knowledge is "prior"

@@ -1,27 +1,16 @@
 // What correspondences cost, and the weights that follow from it.
 #pragma once
 
-#include <cmath>
-
+#include "math/simd/logarithm.hpp"
 #include "robust/kernels/PoseLanes.hpp"
 
 namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-template <class Function>
-HYBRIDGV_INLINE Doubles mapLanes(Doubles value, Function function) {
-  for (int i = 0; i < kWidth; ++i) value[i] = function(value[i]);
-  return value;
-}
-
 HYBRIDGV_INLINE Doubles toTheEighth(Doubles q) {
   const Doubles q2 = q * q, q4 = q2 * q2;
   return q4 * q4;
-}
-
-HYBRIDGV_INLINE Doubles log(Doubles values) {
-  return mapLanes(values, [](double value) { return std::log(value); });
 }
 
 // The sum of logs as the log of a product, which is taken before it can overflow: every factor is from 1 to 1e9 + 1.
@@ -38,7 +27,7 @@ class LogSum {
 
  private:
   void flush() {
-    sum_ += log(product_);
+    sum_ += math::logarithm(product_);
     product_ = broadcast<Doubles>(1);
     factors_ = 0;
   }
@@ -91,7 +80,7 @@ class CostSum {
       case Loss::Truncated:
         return select<Doubles>(x < 1.0, x, broadcast<Doubles>(1));
       case Loss::Mixture:
-        return log(mixtureFactor(x));
+        return math::logarithm(mixtureFactor(x));
     }
     return x;
   }
