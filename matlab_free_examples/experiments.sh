@@ -5,7 +5,8 @@
 set -e
 root=$(cd "$(dirname "$0")/.." && pwd)
 sh "$root/.ci/install_packages.sh" build examples pictures
-programs="solver_table synthetic_experiments compare_opengv rig_query localization_table unknown_distortion"
+programs="solver_table synthetic_experiments compare_opengv rig_query localization_table unknown_distortion \
+  rays_and_points known_focal_length focal_length_guess"
 cmake -S "$root" -B "$root/build/demo" -G Ninja -DHYBRIDGV_BUILD_TESTS=OFF -DHYBRIDGV_BUILD_BENCHMARKS=OFF
 cmake --build "$root/build/demo" --target $programs
 results=$root/build/experiments

@@ -1,6 +1,7 @@
 // hybridgv._core: what the Python package is built on.
 #include <pybind11/pybind11.h>
 #include <hybridgv/adapters/sfm/FileError.hpp>
+#include <hybridgv/instructionSet.hpp>
 #include <hybridgv/types.hpp>
 
 #include <stdexcept>
@@ -44,4 +45,5 @@ PYBIND11_MODULE(_core, module) {
   hybridgv::python::addProgram(module);
 #endif
   module.def("version", &hybridgv::version);
+  module.def("instruction_set", &hybridgv::instructionSet, "The instruction set of the kernels: baseline, avx2 or avx512.");
 }

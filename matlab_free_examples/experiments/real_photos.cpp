@@ -45,6 +45,11 @@ const std::vector<Method> kMethods = {{"hybrid; verified matches", MatchTable::V
 // Programs whose models are read: FOLDER/PROGRAM/MAP, with seconds.txt where their time was taken.
 const std::vector<std::string> kPrograms = {"colmap", "hybridgv"};
 
+struct Settings {
+  CommonOptions common;
+  int repetitions = 20;
+};
+
 struct Attempt {
   std::string map, query, method;
   PoseError error{kInfinity, kInfinity, kInfinity};  // position in percent of the depth
@@ -86,10 +91,9 @@ void removeRays(QueryImage& query, const SparseModel& map, const std::vector<cha
 // All that is asked about the images of one map.
 class MapExperiment {
  public:
-  MapExperiment(const std::string& folder, const PhotoMap& photos, const CommonOptions& common)
-      : folder_(folder), photos_(photos), map_(readModel(photos.path)), common_(common) {
+  MapExperiment(const std::string& folder, const PhotoMap& photos, const Settings& settings)
+      : folder_(folder), photos_(photos), map_(readModel(photos.path)), settings_(settings) {
     options_.matches.certainPoints = findCertainPoints(map_);
-    options_.ransac.seed = common.seed;
   }
 
   void run(std::vector<Attempt>& attempts) {
@@ -143,24 +147,28 @@ class MapExperiment {
       read.push_back(images.read(reference.name));
       if (!method.hasRays) removeRays(read.back(), map_, *options_.matches.certainPoints);
     }
-    const std::size_t first = attempts.size();
-    attempts.resize(first + read.size());
-    hybridgv::detail::parallelFor(read.size(), common_.threads, [&](std::size_t i) {
-      attempts[first + i] = localizeOne(read[i], photos_.queries[i], depths_[i]);
+    const std::size_t first = attempts.size(), count = read.size() * static_cast<std::size_t>(settings_.repetitions);
+    attempts.resize(first + count);
+    hybridgv::detail::parallelFor(count, settings_.common.threads, [&](std::size_t i) {
+      const std::size_t query = i % read.size();
+      attempts[first + i] = localizeOne(read[query], query, settings_.common.seed + i / read.size());
       attempts[first + i].method = method.name;
     });
   }
 
-  Attempt localizeOne(const QueryImage& query, const PhotoReference& reference, double depth) const {
+  Attempt localizeOne(const QueryImage& query, std::size_t number, std::uint64_t seed) const {
+    const PhotoReference& reference = photos_.queries[number];
+    QueryOptions options = options_;
+    options.ransac.seed = seed;
     Attempt attempt{photos_.name, reference.name, ""};
     const double start = threadSeconds();
-    const QueryLocalization found = localizeQuery(map_, query, options_);  // in this thread
+    const QueryLocalization found = localizeQuery(map_, query, options);  // in this thread
     attempt.milliseconds = 1e3 * (threadSeconds() - start);
     if (!found.success) return attempt;
     const CameraEstimate camera = estimateOf(found);
     FocalPose pose = found.result.pose;
     pose.focalLength = camera.focalLength;
-    attempt.error = relativeError(pose, reference.pose, depth);
+    attempt.error = relativeError(pose, reference.pose, depths_[number]);
     attempt.ratio = std::abs(camera.focalLength - reference.pose.focalLength) / camera.deviation;
     return attempt;
   }
@@ -168,7 +176,7 @@ class MapExperiment {
   const std::string& folder_;
   const PhotoMap& photos_;
   const SparseModel map_;
-  const CommonOptions& common_;
+  const Settings& settings_;
   QueryOptions options_;
   std::vector<double> depths_;  // of each query
   std::size_t tried_ = 0;       // images of the database that the map lacks
@@ -209,20 +217,21 @@ void writeRows(CsvFile& csv, const std::string& key, const std::vector<Attempt>&
   for (const std::string& method : order) writeRow(csv, key + "," + method, byMethod[method]);
 }
 
-std::string remark(const CommonOptions& common) {
-  return text("seed ", common.seed, "; hybridgv ", hybridgv::version(),
-              "; focal length [%], rotation [deg], position [% of the median depth of the matched points]");
+std::string remark(const Settings& settings) {
+  return text("library: every image with ", settings.repetitions, " seeds from ", settings.common.seed, " on; hybridgv ",
+              hybridgv::version(), "; focal length [%], rotation [deg], position [% of the median depth of the matched points]");
 }
 
-void writeSet(const std::string& folder, const CommonOptions& common, CsvFile& table, CsvFile& single) {
+void writeSet(const std::string& folder, const Settings& settings, CsvFile& table, CsvFile& single) {
   const std::string set = sceneName(folder);
   std::vector<std::string> kinds;
   std::map<std::string, std::vector<Attempt>> byKind;
   const std::vector<PhotoMap> maps = readPhotoMaps(folder);
-  ProgressBar progress(maps.size(), !common.quiet);
+  ProgressBar progress(maps.size(), !settings.common.quiet);
   for (const PhotoMap& map : maps) {
-    if (kinds.empty() || kinds.back() != map.kind()) kinds.push_back(map.kind());
-    MapExperiment(folder, map, common).run(byKind[map.kind()]);
+    const bool isNewKind = kinds.empty() || kinds.back() != map.kind();
+    if (isNewKind) kinds.push_back(map.kind());
+    if (isNewKind || !settings.common.quick) MapExperiment(folder, map, settings).run(byKind[map.kind()]);
     progress.step();
   }
   std::vector<Attempt> all;
@@ -236,19 +245,19 @@ void writeSet(const std::string& folder, const CommonOptions& common, CsvFile& t
                a.ratio ? text(*a.ratio) : "", a.milliseconds);
 }
 
-void run(const std::vector<std::string>& folders, const CommonOptions& common) {
-  CsvFile table(common.output, "real_photos.csv",
-                {remark(common),
+void run(const std::vector<std::string>& folders, const Settings& settings) {
+  CsvFile table(settings.common.output, "real_photos.csv",
+                {remark(settings),
                  text("within_percent: rotation within ", kMaxRotationDeg, " deg and position within ", kMaxPositionPercent,
                       " %; an image that was not registered counts as an infinite error"),
                  "error_over_deviation: of the focal length, medians; 0.67 and 95 % would be those of normal errors",
-                 "milliseconds: processor time of a query; of programs, time of the whole command divided by its images"},
-                "set,map,method,queries,registered_percent,within_percent,focal_percent,focal_percent_90,rotation_deg,"
+                 "milliseconds of processor time: of a query; of programs, of the whole command divided by its images"},
+                "set,map,method,attempts,registered_percent,within_percent,focal_percent,focal_percent_90,rotation_deg,"
                 "rotation_deg_90,position_percent,position_percent_90,error_over_deviation,within_2_deviations_percent,"
                 "milliseconds");
-  CsvFile single(common.output, "real_photos_queries.csv", {remark(common)},
+  CsvFile single(settings.common.output, "real_photos_queries.csv", {remark(settings)},
                  "set,map,query,method,focal_percent,rotation_deg,position_percent,error_over_deviation,milliseconds");
-  for (const std::string& folder : folders) writeSet(folder, common, table, single);
+  for (const std::string& folder : folders) writeSet(folder, settings, table, single);
 }
 
 }  // namespace
@@ -256,11 +265,18 @@ void run(const std::vector<std::string>& folders, const CommonOptions& common) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Images that are not in the map, with COLMAP's features and matches: both kinds of matches, 2D-3D only, and COLMAP."};
-  CommonOptions options;
+  Settings settings;
   std::vector<std::string> folders;
-  addCommonOptions(app, options, "threads that share the images (each is localized by one)");
+  addCommonOptions(app, settings.common, "threads that share the images (each is localized by one)");
   app.add_option("folder", folders, "folders made by real_photos.sh, or laid out alike")
       ->required()
       ->check(CLI::ExistingDirectory);
-  return runExperiment(app, argc, argv, [&] { run(folders, options); });
+  CLI::Option* repetitions =
+      app.add_option("--repetitions", settings.repetitions, "attempts per image, with other seeds (--quick: 1)")
+          ->check(CLI::Range(1, 100000));
+  repetitions->capture_default_str();
+  return runExperiment(app, argc, argv, [&] {
+    if (settings.common.quick && !*repetitions) settings.repetitions = 1;
+    run(folders, settings);
+  });
 }

@@ -143,18 +143,24 @@ make_maps() {
   done < "$set/left_out.txt"
 }
 
+# The processor time [s] of all programs that were run and waited for so far. Not in $(..), which would be a shell of its own.
+processor_seconds() {
+  times > "$set/times.txt"
+  seconds=$(awk 'NR == 2 { split($1, own, "m"); split($2, kernel, "m"); print 60 * (own[1] + kernel[1]) + own[2] + kernel[2] }' "$set/times.txt") || die "times: $(cat "$set/times.txt")"
+}
+
 # register_images MAP: by both programs, with one thread each.
 register_images() {
   map=$set/maps/$1 list=
   [ "$prepared" = no ] || map=$set/$1
   [ ! -e "$map/queries.txt" ] || list="--image_list_path $map/queries.txt"
   mkdir -p "$set/colmap/$1" "$set/hybridgv/$1"
-  start=$(date +%s.%N)
+  processor_seconds && start=$seconds
   run_colmap image_registrator --database_path "$set/database.db" --input_path "$map" --output_path "$set/colmap/$1" --Mapper.num_threads 1
-  middle=$(date +%s.%N)
+  processor_seconds && middle=$seconds
   "$build/src/program/hybridgv" image_registrator --database_path "$set/database.db" --input_path "$map" --output_path "$set/hybridgv/$1" \
     --Mapper.num_threads 1 $list > "$set/log.txt" 2>&1 || die "hybridgv image_registrator: $(tail -3 "$set/log.txt")"
-  end=$(date +%s.%N)
+  processor_seconds && end=$seconds
   if [ -e "$set/colmap/$1/images.bin" ]; then
     echo "$start $middle" | awk '{ print $2 - $1 }' > "$set/colmap/$1/seconds.txt"
   else

@@ -2,8 +2,6 @@
 // HybridGV knows no such query; it can take one camera of it only, but does not need that camera's focal length.
 //
 // Writes rig_query.csv.
-#include <hybridgv/sac/HybridRansac.hpp>
-
 #include <opengv/absolute_pose/NoncentralAbsoluteAdapter.hpp>
 #include <opengv/sac/Ransac.hpp>
 #include <opengv/sac_problems/absolute_pose/AbsolutePoseSacProblem.hpp>
@@ -13,6 +11,7 @@
 #include "ErrorTable.hpp"
 #include "HybridScene.hpp"
 #include "common/ProgressBar.hpp"
+#include "estimate.hpp"
 
 namespace {
 
@@ -92,19 +91,13 @@ FocalPoses gp3pLoop(RigScene& scene, int& iterations) {
 // On the first camera of the query alone, with or without 2D-2D matches.
 FocalPoses hybridLoop(const RigScene& scene, bool useRays, const CommonOptions& common, int& iterations) {
   hybridgv::test::HybridScene camera = scene.firstCamera;
-  if (!useRays) {
-    camera.image2d2d.clear();
-    camera.bearings.clear();
-    camera.cameras.clear();
-  }
+  if (!useRays) camera.removeRays();
   hybridgv::sac::HybridRansacOptions options;
   options.maxReprojectionErrorPx = kMaxReprojectionErrorPx;
   options.successProbability = kProbability;
   options.seed = common.seed;
   options.threads = common.threads;
-  const hybridgv::sac::HybridRansacResult result = hybridRansac(camera.adapter(), options);
-  iterations = result.iterations;
-  return result.success ? FocalPoses{result.pose} : FocalPoses{};
+  return estimate(camera.adapter(), options, &iterations);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "Commands.hpp"
 
+#include <hybridgv/instructionSet.hpp>
 #include <hybridgv/types.hpp>
 
 #include <cstdio>
@@ -26,7 +27,7 @@ constexpr const char* kHelp =
     "\n"
     "Options:\n"
     "  -h,--help     print this help message and exit; hybridgv COMMAND --help prints that of a command\n"
-    "  --version     print the version and exit\n";
+    "  --version     print the version and the instruction set of the kernels, and exit\n";
 
 }  // namespace
 
@@ -40,7 +41,7 @@ int run(const std::string& command, std::vector<std::string> arguments) {
   if (command == "--help" || command == "-h" || command == "help")
     std::fputs(kHelp, stdout);
   else if (command == "--version")
-    std::printf("hybridgv %s\n", hybridgv::version());
+    std::printf("hybridgv %s\nkernels: %s\n", hybridgv::version(), hybridgv::instructionSet());
   else
     return std::fprintf(stderr, "hybridgv: there is no command %s; hybridgv --help lists them\n", quoted(command).c_str()),
            kWrongUsage;

@@ -1,8 +1,11 @@
 """localize() on arrays."""
 
 import gc
+import os
 import pickle
 import resource
+import subprocess
+import sys
 import threading
 import time
 
@@ -373,6 +376,13 @@ def test_memory_does_not_grow(scene, camera):
 
     before = calls(2000)
     assert calls(34000) - before < 2000  # KiB, 10^5 calls
+
+
+def test_instruction_set():
+    command = [sys.executable, "-c", "import hybridgv; print(hybridgv.instruction_set())"]
+    environment = dict(os.environ, HYBRIDGV_SIMD="baseline")
+    assert subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout == "baseline\n"
+    assert hybridgv.instruction_set() in ("baseline", "avx2", "avx512")
 
 
 def test_version():

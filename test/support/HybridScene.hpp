@@ -27,6 +27,18 @@ struct HybridScene {
   FocalPose truth;
 
   NoncentralHybridAdapter adapter() const { return {image2d2d, bearings, cameras, offsets, rotations, image2d3d, points}; }
+
+  void removeRays() {
+    image2d2d.clear();
+    bearings.clear();
+    cameras.clear();
+    inliers2d2d.clear();
+  }
+  void removePoints() {
+    image2d3d.clear();
+    points.clear();
+    inliers2d3d.clear();
+  }
 };
 
 constexpr double kRigFocalLength = 1000;

@@ -35,6 +35,8 @@ struct WideSceneOptions {
   double pointNoise = 0;  // standard deviation of the 3D points per coordinate, as a share of their distance
   double outlierShare = 0;
   QueryLens lens = simpleRadialLens(0);
+  double meanDepth = 11, relief = 6;             // of the points: mean depth and largest deviation from it
+  double leastFocal = 700, largestFocal = 1400;  // [px] of the query
   bool isBox = false;  // points in a box far away, most of which are seen near the image's centre, as in HybridScene
 };
 
@@ -48,7 +50,7 @@ struct SeenPoint {
 inline SeenPoint makeSeenPoint(Random& random, const FocalPose& query, const WideSceneOptions& options) {
   for (;;) {
     const Eigen::Vector3d place = random.vector(-1, 1);
-    const double depth = 11 + 6 * place[2], width = 1.1 * kWideHalfSize / query.focalLength * depth;
+    const double depth = options.meanDepth + options.relief * place[2], width = 1.1 * kWideHalfSize / query.focalLength * depth;
     const Eigen::Vector3d inQuery =
         options.isBox ? toCamera(query, 5 * place) : Eigen::Vector3d(width * place[0], width * place[1], depth);
     const Eigen::Vector2d exact = options.lens(inQuery.hnormalized(), query.focalLength);
@@ -93,7 +95,7 @@ inline HybridScene makeWideScene(Random& random, const WideSceneOptions& options
   const auto look = [&](double focalLength) {
     return cameraLookingAtOrigin(random, options.isBox ? random.uniform(15, 25) : random.uniform(10, 18), focalLength);
   };
-  const double focalLength = options.isBox ? random.uniform(500, 2000) : random.uniform(700, 1400);
+  const double focalLength = options.isBox ? random.uniform(500, 2000) : random.uniform(options.leastFocal, options.largestFocal);
   scene.truth = look(focalLength);
   for (int k = 0; k < options.cameras; ++k) {
     const FocalPose camera = look(kRigFocalLength);

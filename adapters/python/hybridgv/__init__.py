@@ -7,6 +7,7 @@ Conventions: pixels as detected, the centre of the top left pixel at (0.5, 0.5) 
 and PoseLib's pose, `rotation` and `position` are OpenGV's (camera -> world, the camera's centre).
 """
 
+from ._core import instruction_set
 from ._core import version as _version
 from ._errors import FileError
 from ._localize import bearing_vectors, distort, localize, undistort
@@ -36,6 +37,7 @@ __all__ = [
     "h51f",
     "h60",
     "h70f",
+    "instruction_set",
     "localize",
     "p35pf",
     "p3p",

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "CheckArguments.hpp"
+#include "hybridgv/instructionSet.hpp"
 
 namespace hybridgv {
 namespace math {
@@ -50,4 +51,7 @@ SimdLevel simdLevel() {
 }
 
 }  // namespace math
+
+const char* instructionSet() { return math::toString(math::simdLevel()); }
+
 }  // namespace hybridgv

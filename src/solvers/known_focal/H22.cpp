@@ -78,14 +78,15 @@ struct PointPair {
     X2 = points[1].point;
     const Vector3d a1 = bearingOf(points[0].u, points[0].v);
     a2 = bearingOf(points[1].u, points[1].v);
-    const Vector3d normal = a1.cross(a2);
-    sine = normal.norm();
-    if (!(sine > kOneDirection) || !std::isfinite(length)) return false;
-    N = normal / sine;
-    sinHalf = (a1 - a2).norm() / 2;
+    // Exactly orthonormal also where the bearings nearly coincide: what their difference has along the bisector is rounding.
+    b2 = (a1 + a2).normalized();
+    const Vector3d chord = a1 - a2, across = chord - b2.dot(chord) * b2;
+    sinHalf = across.norm() / 2;
     cosHalf = (a1 + a2).norm() / 2;
-    b1 = (a1 - a2) / (2 * sinHalf);
-    b2 = N.cross(b1);
+    sine = 2 * sinHalf * cosHalf;
+    if (!(sine > kOneDirection) || !std::isfinite(length)) return false;
+    b1 = across / (2 * sinHalf);
+    N = b1.cross(b2);
     return true;
   }
 

@@ -9,6 +9,7 @@
 
 #include "HybridScene.hpp"
 #include "hybridgv/hybrid_pose/methods.hpp"
+#include "hybridgv/instructionSet.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 
 namespace hybridgv {
@@ -40,6 +41,12 @@ TEST(SimdLevel, EnvironmentVariableLowersTheLevelButNeverRaisesIt) {
   expectLevel("avx2", std::min(SimdLevel::Avx2, supportedSimdLevel()));
   expectLevel("avx512", supportedSimdLevel());
   expectLevel("", supportedSimdLevel());
+}
+
+TEST(SimdLevel, InstructionSetNamesTheLevel) {
+  expectWith("baseline", [] { return instructionSet() == std::string("baseline"); });
+  expectWith("sse2", [] { return instructionSet() == std::string("baseline"); });
+  EXPECT_STREQ(instructionSet(), toString(simdLevel()));
 }
 
 // Whether the call is refused by an error that names the variable, its value and what it may be; twice, as the value stays wrong.
