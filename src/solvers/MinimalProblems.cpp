@@ -36,7 +36,8 @@ int solve(const MinimalSolver& solver, const RayMatch* rays, const PointMatch* p
 }
 
 bool canGive(const MinimalSolver& solver, const RayMatch* rays) {
-  if (solver.draw == RayDraw::OneCamera) return mostOfOneCamera(rays, solver.rays) == solver.rays;
+  if (solver.draw == RayDraw::OneCamera)
+    return std::all_of(rays, rays + solver.rays, [rays](const RayMatch& ray) { return ray.camera == rays[0].camera; });
   if (solver.draw == RayDraw::AllButOne) return mostOfOneCamera(rays, solver.rays) == solver.rays - 1;
   return true;
 }

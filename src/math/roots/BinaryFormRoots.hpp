@@ -155,6 +155,9 @@ class BinaryFormRoots {
     void refine();
 
    private:
+    template <int Pairs>
+    void refinePairs();
+
     static constexpr int kPairs = 4;
     int count_ = 0;
     Direction* roots_[2 * kPairs];
@@ -172,7 +175,8 @@ class BinaryFormRoots {
 
    private:
     void between(const Direction& v0, const Direction& v1, int level);
-    void arcs(const double* p, const double* c, const double* s, int arcCount, int level);
+    template <int ArcCount>
+    void arcs(const double* p, const double* c, const double* s, int level);
     void pieces(const Piece& arc, int level);
     void anew(const Piece& piece, int level);
     void add(double c, double s);
@@ -208,14 +212,14 @@ int BinaryFormRoots<D>::Search<Sample>::run() {
   for (int j = 0; j < kSamples; ++j) largest = std::max(largest, std::abs(p[j]));
   const double ratio = secondSmallest(p) / largest;
   if (!(ratio < 1e-4)) {
-    arcs(p, tables.c, tables.s, kSamples, 0);
+    arcs<kSamples>(p, tables.c, tables.s, 0);
   } else {
     double c[kPadded], s[kPadded], unitC[kPadded], unitS[kPadded], length[kPadded];
     spread(p, ratio, c, s);
     normalize(c, s, unitC, unitS, length);
     sample_(unitC, unitS, p);
     scale(p, length);
-    arcs(p, c, s, kSamples, 0);
+    arcs<kSamples>(p, c, s, 0);
   }
   simple_.refine();
   return count_;
@@ -303,7 +307,7 @@ void BinaryFormRoots<D>::Search<Sample>::between(const Direction& v0, const Dire
   ++samplings_;
   sample_(unitC, unitS, p);
   scale(p, length);
-  arcs(p, c, s, kArcs, level);
+  arcs<kArcs>(p, c, s, level);
 }
 
 template <int D>
@@ -317,11 +321,12 @@ void BinaryFormRoots<D>::Search<Sample>::anew(const Piece& piece, int level) {
   }
 }
 
-// The samples p_j at v_j = (c_j, s_j) = M (cos psi_j, sin psi_j), M any linear map; searches the first `arcCount` arcs.
+// The samples p_j at v_j = (c_j, s_j) = M (cos psi_j, sin psi_j), M any linear map; searches the first arcs.
 template <int D>
 template <class Sample>
-void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, const double* s, int arcCount, int level) {
-  constexpr int kPairs = Tables::kPairs, kEven = Tables::kEven, kOdd = Tables::kOdd;
+template <int ArcCount>
+void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, const double* s, int level) {
+  constexpr int kPairs = (ArcCount + 1) / 2, kEven = Tables::kEven, kOdd = Tables::kOdd;
   constexpr double kWrap = D % 2 ? -1 : 1;  // p(-v) / p(v)
   const Tables& tables = Tables::get();
   double largest = 0;
@@ -358,7 +363,7 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
       b[D - i][k] = symmetric[k] - antisymmetric[k];
     }
   }
-  double low[kPadded], high[kPadded];
+  double low[2 * kPairs], high[2 * kPairs];
   for (int k = 0; k < kPairs; ++k) {
     Pair least = b[0][k], greatest = b[0][k];
     for (int i = 1; i <= D; ++i) {
@@ -369,7 +374,7 @@ void BinaryFormRoots<D>::Search<Sample>::arcs(const double* p, const double* c, 
     store(high + 2 * k, greatest);
   }
 
-  for (int j = 0; j < arcCount; ++j) {
+  for (int j = 0; j < ArcCount; ++j) {
     if (low[j] >= kTau || high[j] <= -kTau) continue;  // no root
     Piece arc;
     for (int i = 0; i <= D; ++i) arc.b[i] = b[i][j / 2][j % 2];
@@ -493,33 +498,41 @@ void BinaryFormRoots<D>::SimpleRoots::add(const Piece& piece, unsigned signChang
   for (int k = 0; k <= D; ++k) coefficients_[k][lane] = sign * a[reversed ? D - k : k];
 }
 
-// Halley's method in all lanes, each in a bracket of its own.
 template <int D>
 void BinaryFormRoots<D>::SimpleRoots::refine() {
-  if (count_ == 0) return;
-  for (int lane = count_; lane < 2 * kPairs; ++lane) {
+  if (count_ > 4)
+    refinePairs<kPairs>();
+  else if (count_ > 0)
+    refinePairs<2>();
+}
+
+// Halley's method in the first lanes, each in a bracket of its own.
+template <int D>
+template <int Pairs>
+void BinaryFormRoots<D>::SimpleRoots::refinePairs() {
+  for (int lane = count_; lane < 2 * Pairs; ++lane) {
     start_[lane] = start_[0];
     for (int k = 0; k <= D; ++k) coefficients_[k][lane] = coefficients_[k][0];
   }
-  Pair t[kPairs], low[kPairs], high[kPairs];
-  for (int j = 0; j < kPairs; ++j) {
+  Pair t[Pairs], low[Pairs], high[Pairs];
+  for (int j = 0; j < Pairs; ++j) {
     t[j] = load<Pair>(&start_[2 * j]);
     low[j] = Pair{0, 0};
     high[j] = Pair{1, 1};
   }
   for (int iteration = 0; iteration < 60; ++iteration) {
-    Pair value[kPairs], slope[kPairs], curvature[kPairs], step{0, 0};  // curvature: half the second derivative
-    for (int j = 0; j < kPairs; ++j) {
+    Pair value[Pairs], slope[Pairs], curvature[Pairs], step{0, 0};  // curvature: half the second derivative
+    for (int j = 0; j < Pairs; ++j) {
       value[j] = load<Pair>(coefficients_[D] + 2 * j);
       slope[j] = curvature[j] = Pair{0, 0};
     }
     for (int k = D - 1; k >= 0; --k)
-      for (int j = 0; j < kPairs; ++j) {
+      for (int j = 0; j < Pairs; ++j) {
         curvature[j] = curvature[j] * t[j] + slope[j];
         slope[j] = slope[j] * t[j] + value[j];
         value[j] = value[j] * t[j] + load<Pair>(coefficients_[k] + 2 * j);
       }
-    for (int j = 0; j < kPairs; ++j) {
+    for (int j = 0; j < Pairs; ++j) {
       high[j] = value[j] > 0 ? t[j] : high[j];
       low[j] = value[j] > 0 ? low[j] : t[j];
       Pair next = t[j] - value[j] * slope[j] / (slope[j] * slope[j] - value[j] * curvature[j]);
@@ -530,8 +543,8 @@ void BinaryFormRoots<D>::SimpleRoots::refine() {
     }
     if (step[0] < 1e-4 && step[1] < 1e-4) break;
   }
-  double root[2 * kPairs];
-  for (int j = 0; j < kPairs; ++j) store(&root[2 * j], t[j]);
+  double root[2 * Pairs];
+  for (int j = 0; j < Pairs; ++j) store(&root[2 * j], t[j]);
   for (int lane = 0; lane < count_; ++lane) {
     const double c = c0_[lane] + root[lane] * c1_[lane], s = s0_[lane] + root[lane] * s1_[lane];
     const double scale = 1 / std::sqrt(c * c + s * s);

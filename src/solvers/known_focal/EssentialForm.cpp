@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hybridgv {
 namespace solvers {
@@ -18,6 +19,24 @@ constexpr int kQuadratic[kVariables][kVariables] = {{0, 1, 2, 3}, {1, 4, 5, 6}, 
 constexpr int kCubic[kQuadratics][kVariables] = {{0, 1, 4, 5},     {1, 2, 6, 7},    {4, 6, 10, 11}, {5, 7, 11, 12},
                                                  {2, 3, 8, 9},     {6, 8, 13, 14},  {7, 9, 14, 15}, {10, 13, 16, 17},
                                                  {11, 14, 17, 18}, {12, 15, 18, 19}};
+
+// The other way round: the products of a quadratic monomial and a variable that make a cubic one, at most three.
+struct Products {
+  int count, quadratic[3], variable[3];
+};
+struct ProductTable {
+  Products of[kCubics] = {};
+
+  constexpr ProductTable() {
+    for (int m = 0; m < kQuadratics; ++m)
+      for (int n = 0; n < kVariables; ++n) {
+        Products& products = of[kCubic[m][n]];
+        products.quadratic[products.count] = m;
+        products.variable[products.count++] = n;
+      }
+  }
+};
+constexpr ProductTable kProducts;
 
 // The entry (i, j) of E as a linear form: entries[i][variable][j], padded.
 struct Entries {
@@ -99,15 +118,27 @@ class Cubics {
  private:
   static constexpr int kPairs = kCubics / 2;
 
+  // The coefficients of the cubic monomials in sum_k Q_k E_kj, the index of each known to the compiler.
+  template <int... C>
+  static void sumProducts(const Quadratic (&Q)[3], const Entries& E, Pair (&sums)[kCubics][2], std::integer_sequence<int, C...>) {
+    (sumProductsOf<C>(Q, E, sums[C]), ...);
+  }
+  template <int C>
+  static void sumProductsOf(const Quadratic (&Q)[3], const Entries& E, Pair (&sum)[2]) {
+    constexpr Products products = kProducts.of[C];
+    sum[0] = sum[1] = Pair{0, 0};
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < products.count; ++l) {
+        const double factor = Q[k].q[products.quadratic[l]];
+        sum[0] += factor * E.e[k][products.variable[l]][0];
+        sum[1] += factor * E.e[k][products.variable[l]][1];
+      }
+  }
+
   // The three equations sum_k Q_k E_kj.
   void addRowsOf(const Quadratic (&Q)[3], const Entries& E, int i) {
-    Pair sums[kCubics][2] = {};
-    for (int k = 0; k < 3; ++k)
-      for (int m = 0; m < kQuadratics; ++m)
-        for (int n = 0; n < kVariables; ++n) {
-          sums[kCubic[m][n]][0] += Q[k].q[m] * E.e[k][n][0];
-          sums[kCubic[m][n]][1] += Q[k].q[m] * E.e[k][n][1];
-        }
+    Pair sums[kCubics][2];
+    sumProducts(Q, E, sums, std::make_integer_sequence<int, kCubics>());
     for (int j = 0; j < 3; ++j)
       for (int p = 0; p < kPairs; ++p) row_[3 * i + j][p] = Pair{sums[2 * p][j / 2][j % 2], sums[2 * p + 1][j / 2][j % 2]};
   }

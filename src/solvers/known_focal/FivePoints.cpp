@@ -117,19 +117,25 @@ void FivePoints::addMotionsOf(const Matrix3d& matrix) {
   const Vector3d b = nullVector(E);
   Motion motion;
   motion.R = cofactors(E) - E * crossMatrix(b);
-  orthonormalize(motion.R);
   motion.t = motion.R * b;
   const Matrix3d other = 2 * motion.t * (motion.t.transpose() * motion.R) - motion.R;
-  addInFront(motion);
-  addInFront({motion.R, -motion.t});
-  addInFront({other, motion.t});
-  addInFront({other, -motion.t});
+  addInFront(motion.R, motion.t);
+  addInFront(other, motion.t);
 }
 
-// Refines the motion if all rays meet in front.
-void FivePoints::addInFront(Motion motion) {
-  for (int i = 0; i < kRays; ++i)
-    if (!meetInFront(rays_[i].u, rays_[i].v, 1, motion.R * rays_[i].direction, motion.t)) return;
+// Adds the motion by t or by -t, if all rays meet in front for one of them.
+void FivePoints::addInFront(const Matrix3d& R, const Vector3d& t) {
+  int side = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const int sideOfRay = meetingSide(rays_[i].u, rays_[i].v, 1, R * rays_[i].direction, t);
+    if (sideOfRay == 0 || sideOfRay == -side) return;
+    side = sideOfRay;
+  }
+  add({R, side * t});
+}
+
+void FivePoints::add(Motion motion) {
+  orthonormalize(motion.R);
   if (!refine(motion) || !areInFront(motion) || count_ == kMaxMotions) return;
   for (const Motion& known : *this)
     if ((known.R - motion.R).norm() < kSame && (known.t - motion.t).norm() < kSame) return;
@@ -161,7 +167,7 @@ bool FivePoints::refine(Motion& motion) const {
     const Matrix3d W = crossMatrix(w);
     motion.R += 2 / (1 + w.squaredNorm()) * (W * motion.R + W * (W * motion.R));
     motion.t = (motion.t + change[3] * u1 + change[4] * u2).normalized();
-    if (size < 1e-9) break;
+    if (size < 1e-8) break;
   }
   orthonormalize(motion.R);
   return true;

@@ -29,7 +29,8 @@ class FivePoints {
 
  private:
   void addMotionsOf(const Eigen::Matrix3d& E);
-  void addInFront(Motion motion);
+  void addInFront(const Eigen::Matrix3d& R, const Eigen::Vector3d& t);
+  void add(Motion motion);  // refined
   bool areInFront(const Motion& motion) const;
   bool refine(Motion& motion) const;
 

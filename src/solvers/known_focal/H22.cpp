@@ -29,8 +29,8 @@ namespace solvers {
 namespace known_focal {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
+using math::Direction;
 using math::Pair;
 using Roots = math::BinaryFormRoots<16>;
 
@@ -149,8 +149,8 @@ class H22 {
   int solve() {
     // tan of half the largest |theta|
     const double q = points_.sinHalf / (1 + points_.cosHalf), end = (1 - q) / (1 + q), length = std::sqrt(1 + end * end);
-    const math::Direction first{1 / length, -end / length}, last{1 / length, end / length};
-    math::Direction roots[Roots::kMaxRoots];
+    const Direction first{1 / length, -end / length}, last{1 / length, end / length};
+    Direction roots[Roots::kMaxRoots];
     const int count = Roots::findSampledBetween(
         [this](const double* c, const double* s, double* p) {
           for (int j = 0; j < Roots::kPadded; j += 2) math::store(p + j, form(math::load<Pair>(c + j), math::load<Pair>(s + j)));
@@ -169,51 +169,61 @@ class H22 {
 
   // Psi is that of both rows. Where they are nearly parallel, or do not meet the circle, it is that of the larger row: a ray whose
   // point lies on the line of X1 and X2 has none at all, for any psi.
-  void lift(const math::Direction& root) {
-    const double cosine = root.c * root.c - root.s * root.s, sine = 2 * root.c * root.s, theta = std::atan2(sine, cosine);
-    const Angle<double> at = points_.angle(cosine, sine);
+  void lift(const Direction& root) {
+    const Direction theta{root.c * root.c - root.s * root.s, 2 * root.c * root.s};
+    const Angle<double> at = points_.angle(theta.c, theta.s);
     const Row<double> rows[2] = {rays_[0].row(at), rays_[1].row(at)}, n = cross(rows[0], rows[1]);
     const double squares[2] = {squaredNorm(rows[0]), squaredNorm(rows[1])}, square = squaredNorm(n);
     const double sign = n.K < 0 ? -1 : 1;
-    if (n.A * n.A + n.B * n.B > 0) refine(theta, std::atan2(sign * n.B, sign * n.A));
+    refine(theta, {sign * n.A, sign * n.B});
     if (std::abs(n.A * n.A + n.B * n.B - n.K * n.K) <= 1e-2 * square && square >= 1e-8 * squares[0] * squares[1]) return;
     const Row<double>& row = squares[0] > squares[1] ? rows[0] : rows[1];
     const double w = std::sqrt(std::max(row.A * row.A + row.B * row.B - row.K * row.K, 0.));
-    for (const double side : {w, -w}) refine(theta, std::atan2(-row.B * row.K - side * row.A, -row.A * row.K + side * row.B));
+    for (const double side : {w, -w}) refine(theta, {side * row.B - row.A * row.K, -row.B * row.K - side * row.A});
   }
 
-  // Newton's method for theta and psi.
-  void refine(double theta, double psi) {
+  // Newton's method for theta and psi, of which the latter has any length.
+  void refine(Direction theta, Direction psi) {
+    const double length = std::sqrt(psi.c * psi.c + psi.s * psi.s);
+    if (!(length > 0)) return;
+    psi = {psi.c / length, psi.s / length};
     bool isConverged = false;
     for (int step = 0; step < 6 && !isConverged; ++step) {
-      const Angle<double> at = points_.angle(std::cos(theta), std::sin(theta));
+      const Angle<double> at = points_.angle(theta.c, theta.s);
       const double slope = -(points_.cosHalf * at.sine + points_.sinHalf * at.cosine) / points_.sine;
-      const double cosPsi = std::cos(psi), sinPsi = std::sin(psi);
-      const Ray::Value a = rays_[0].value(at, slope, cosPsi, sinPsi), b = rays_[1].value(at, slope, cosPsi, sinPsi);
+      const Ray::Value a = rays_[0].value(at, slope, psi.c, psi.s), b = rays_[1].value(at, slope, psi.c, psi.s);
       const double determinant = a.byTheta * b.byPsi - a.byPsi * b.byTheta;
       const double byTheta = (a.F * b.byPsi - a.byPsi * b.F) / determinant,
                    byPsi = (a.byTheta * b.F - a.F * b.byTheta) / determinant;
       const double size = std::max(std::abs(byTheta), std::abs(byPsi));
       if (!(size < 0.5)) return;
-      theta -= byTheta;
-      psi -= byPsi;
+      theta = turned(theta, -byTheta);
+      psi = turned(psi, -byPsi);
       isConverged = size < 1e-7;
     }
     if (isConverged) accept(theta, psi);
   }
 
-  void accept(double theta, double psi) {
-    const double cosine = std::cos(theta), sine = std::sin(theta), cosPsi = std::cos(psi), sinPsi = std::sin(psi);
-    const double depth1 = cosine * points_.cosHalf + sine * points_.sinHalf,
-                 depth2 = cosine * points_.cosHalf - sine * points_.sinHalf;
+  // By an angle, up to its cube.
+  static Direction turned(const Direction& direction, double angle) {
+    const double t = angle / 2, inverse = 1 / (1 + t * t), cosine = (1 - t * t) * inverse, sine = 2 * t * inverse;
+    return {direction.c * cosine - direction.s * sine, direction.s * cosine + direction.c * sine};
+  }
+
+  static bool areSame(const Direction& a, const Direction& b) {
+    constexpr double kSame = 1e-7;
+    return (a.c - b.c) * (a.c - b.c) + (a.s - b.s) * (a.s - b.s) < kSame * kSame;
+  }
+
+  void accept(const Direction& theta, const Direction& psi) {
+    const double depth1 = theta.c * points_.cosHalf + theta.s * points_.sinHalf,
+                 depth2 = theta.c * points_.cosHalf - theta.s * points_.sinHalf;
     if (!(depth1 > 0 && depth2 > 0) || count_ == kMaxPoses) return;
     for (int i = 0; i < count_; ++i)
-      if (std::abs(std::remainder(angles_[i][0] - theta, 2 * kPi)) < kSame &&
-          std::abs(std::remainder(angles_[i][1] - psi, 2 * kPi)) < kSame)
-        return;
-    const Vector3d g = cosine * points_.b1 + sine * points_.b2, h = points_.N.cross(g);
-    const Eigen::Matrix3d R = g * points_.u.transpose() + (cosPsi * h + sinPsi * points_.N) * points_.e1.transpose() +
-                              (cosPsi * points_.N - sinPsi * h) * points_.e2.transpose();
+      if (areSame(thetas_[i], theta) && areSame(psis_[i], psi)) return;
+    const Vector3d g = theta.c * points_.b1 + theta.s * points_.b2, h = points_.N.cross(g);
+    const Eigen::Matrix3d R = g * points_.u.transpose() + (psi.c * h + psi.s * points_.N) * points_.e1.transpose() +
+                              (psi.c * points_.N - psi.s * h) * points_.e2.transpose();
     const Vector3d y2 = depth2 / points_.sine * points_.a2;  // X2 seen by the query, in units of l
     for (int i = 0; i < 2; ++i) {
       const Vector3d centre = R * ((matches_[i].centre - points_.X2) / points_.length) + y2;
@@ -223,17 +233,16 @@ class H22 {
     pose.rotation = R.transpose();
     pose.position = points_.X2 - points_.length * (pose.rotation * y2);
     pose.focalLength = 1;
-    angles_[count_++] = {theta, psi};
+    thetas_[count_] = theta;
+    psis_[count_++] = psi;
   }
-
-  static constexpr double kPi = 3.14159265358979323846, kSame = 1e-7;
 
   const PointPair& points_;
   const RayMatch* matches_;
   double imageScale_;
   FocalPose* solutions_;
   Ray rays_[2];
-  Vector2d angles_[kMaxPoses];
+  Direction thetas_[kMaxPoses], psis_[kMaxPoses];
   int count_ = 0;
 };
 

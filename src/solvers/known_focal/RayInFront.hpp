@@ -20,7 +20,7 @@ inline bool isMetInFront(const RayMatch& ray, const Eigen::Vector3d& centre, con
   const double baseline = centre.norm();
   if (!(baseline > kLeastBaseline)) return false;
   const Eigen::Vector3d line = centre.cross(direction);
-  const double allowed = kTolerance * imageScale * std::hypot(line[0], line[1]);
+  const double allowed = kTolerance * imageScale * std::sqrt(line[0] * line[0] + line[1] * line[1]);
   if (!(std::abs(line[0] * ray.u + line[1] * ray.v + line[2]) <= allowed)) return false;
   return meetInFront(ray.u, ray.v, 1, direction, centre / baseline);
 }
