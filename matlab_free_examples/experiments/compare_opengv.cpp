@@ -54,12 +54,14 @@ HybridScene makeScene(const Settings& settings, std::uint64_t index, double outl
   return makeHybridScene(random, options);
 }
 
-hybridgv::sac::HybridRansacResult estimate(const Settings& settings, const NoncentralHybridAdapter& adapter) {
+hybridgv::sac::HybridRansacResult estimate(const Settings& settings, const NoncentralHybridAdapter& adapter,
+                                           std::optional<double> focalLength = {}) {
   hybridgv::sac::HybridRansacOptions options;
   options.maxReprojectionErrorPx = kMaxReprojectionErrorPx;
   options.maxEpipolarErrorPx = kMaxEpipolarErrorPx;
   options.successProbability = kProbability;
   options.maxIterations = kMaxIterations;
+  options.knownFocalLengthPx = focalLength;
   options.seed = settings.options.seed;
   options.threads = settings.options.threads;
   return hybridRansac(adapter, options);
@@ -116,10 +118,18 @@ void compareSolvers(const Settings& settings, const HybridScene& scene, ErrorTab
     const auto add = [&](const char* name, int matches, const auto& solve) {
       table.add({"OpenGV", name, assumed.name, std::to_string(matches)}, scene.truth, [&] { return query.poses(solve()); });
     };
-    table.add({"HybridGV", "p3p", assumed.name, "3"}, scene.truth,
-              [&] { return hybridgv::absolute_pose::p3p(adapter, assumed.focalLength); });
+    const double f = assumed.focalLength;
+    const auto addOurs = [&](const char* name, int matches, const auto& solve) {
+      table.add({"HybridGV", name, assumed.name, std::to_string(matches)}, scene.truth, solve);
+    };
+    addOurs("p3p", 3, [&] { return hybridgv::absolute_pose::p3p(adapter, f); });
+    addOurs("h22", 4, [&] { return hybridgv::hybrid_pose::h22(adapter, f, {{0, 1}, {0, 1}}); });
+    addOurs("h41", 5, [&] { return hybridgv::hybrid_pose::h41(adapter, f, {{0, 5, 10, 15}, {0}}); });
+    addOurs("h60", 6, [&] { return hybridgv::hybrid_pose::h60(adapter, f, {{0, 5, 10, 15, 20, 1}, {}}); });
+    addOurs("hybridRansac", 400, [&] { return FocalPoses{estimate(settings, adapter, f).pose}; });
     using namespace opengv::absolute_pose;
     add("p3p_kneip", 3, [&] { return p3p_kneip(query.adapter, three); });
+    add("p3p_gao", 3, [&] { return p3p_gao(query.adapter, three); });
     add("gp3p", 3, [&] { return gp3p(query.adapter, three); });
     add("epnp", 200, [&] { return opengv::transformations_t{epnp(query.adapter)}; });
     add("upnp", 200, [&] { return upnp(query.adapter); });
@@ -170,6 +180,7 @@ void compareLoops(const Settings& settings, double outlierShare, const HybridSce
       table.add({"opengv::sac::Ransac", name, assumed.name, outliers}, scene.truth, solve, &iterations);
     };
     add("KNEIP", AbsoluteProblem::KNEIP);
+    add("GAO", AbsoluteProblem::GAO);
     add("GP3P", AbsoluteProblem::GP3P);
     add("EPNP", AbsoluteProblem::EPNP);
   }
@@ -187,12 +198,16 @@ void compareLoops(const Settings& settings, double outlierShare, const HybridSce
     if (needsFocalLength(solver))
       for (const Assumption& assumed : assumptions(scene, estimated)) addOurs(solver, assumed.name, assumed.focalLength);
   }
-  const auto hybrid = [&] {
-    const hybridgv::sac::HybridRansacResult result = estimate(settings, adapter);
-    iterations = result.iterations;
-    return result.success ? FocalPoses{result.pose} : FocalPoses{};
+  const auto addHybrid = [&](const char* assumption, std::optional<double> focalLength) {
+    const auto solve = [&] {
+      const hybridgv::sac::HybridRansacResult result = estimate(settings, adapter, focalLength);
+      iterations = result.iterations;
+      return result.success ? FocalPoses{result.pose} : FocalPoses{};
+    };
+    table.add({"HybridGV", "hybridRansac", assumption, outliers}, scene.truth, solve, &iterations);
   };
-  table.add({"HybridGV", "hybridRansac", "unknown", outliers}, scene.truth, hybrid, &iterations);
+  addHybrid("unknown", {});
+  for (const Assumption& assumed : assumptions(scene, estimated)) addHybrid(assumed.name, assumed.focalLength);
 }
 
 void run(const Settings& settings) {

@@ -3,7 +3,7 @@ data = folder . "/opengv_loops.csv"
 outliers = "0 30 50"
 stats data using (strcol(4) eq word(outliers, 1) ? 1 : NaN) nooutput
 methods = STATS_records
-eval "set terminal " . terminal(1200, 560)
+eval "set terminal " . terminal(1200, 120 + 20 * methods)
 set output output("opengv_loops")
 set multiplot layout 1, 3 title "RANSAC loops, medians by share of outliers; focal length true, guessed, estimated by HybridGV, or unknown" margins 0.17, 0.98, 0.1, 0.86 spacing 0.02, 0
 set style fill solid 0.6

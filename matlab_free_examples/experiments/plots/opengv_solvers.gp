@@ -1,12 +1,14 @@
 # Median errors and time of OpenGV's solvers, by the focal length that they are given, beside HybridGV's.
 data = folder . "/opengv_solvers.csv"
-eval "set terminal " . terminal(1100, 460)
+stats data using (strcol(1) eq "" ? NaN : 1) nooutput
+methods = STATS_records
+eval "set terminal " . terminal(1100, 60 + 20 * methods)
 set output output("opengv_solvers")
-set multiplot layout 1, 3 title "Solvers on scenes without outliers, medians; focal length true, guessed, estimated by HybridGV, or unknown" margins 0.17, 0.98, 0.12, 0.92 spacing 0.02, 0
+set multiplot layout 1, 3 title "Solvers on scenes without outliers, medians; focal length true, guessed, estimated by HybridGV, or unknown" margins 0.17, 0.98, 0.08, 0.95 spacing 0.02, 0
 set style fill solid 0.6
 set logscale x
 set grid noytics xtics
-set yrange [-19.6:0.6]
+set yrange [-methods + 0.4:0.6]
 set key off
 colour(focalLength) = focalLength eq "unknown" ? 6 : focalLength eq "true" ? 3 : focalLength eq "guess" ? 5 : 2
 least = "0.01 0.01 1"
