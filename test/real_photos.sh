@@ -24,6 +24,7 @@ for method in "hybrid; verified matches" "hybrid; raw matches" "hybridgv image_r
 done
 [ "$(grep -c '^own,map,photo_' results/real_photos_queries.csv)" -ge 40 ] || fail "a row for each image and method"
 expect "$(value map "hybridgv image_registrator" 15) > 0.1"
+grep -q '^| own map | .*image_registrator.* | 100 %, 100 % | ' log || fail "a table to read: $(cat log)"
 [ -s results/own.map.html ] || fail "a page"
 if command -v colmap > /dev/null; then
   [ "$(value map "colmap image_registrator" $registered)" = 100 ] || fail "COLMAP's images: $(cat results/real_photos.csv)"

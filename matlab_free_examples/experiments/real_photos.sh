@@ -216,4 +216,5 @@ done
 shift "$count"
 "$build/matlab_free_examples/experiments/real_photos" --seed "$seed" --output "$work" "$@" || exit 1
 sh "$root/matlab_free_examples/experiments/plot.sh" "$work" || [ $? = 77 ] || exit 1
+awk -f "$root/matlab_free_examples/experiments/real_photos_table.awk" "$work/real_photos.csv"
 echo "results: $work"
