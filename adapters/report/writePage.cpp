@@ -157,9 +157,7 @@ std::string makePage(const std::string& path, const sfm::SparseModel& map, const
 
 void writePage(const std::string& path, const sfm::SparseModel& map, const std::vector<ReportedImage>& images,
                const PageOptions& options) {
-  sfm::FileReplacement file;
-  file.write(path, makePage(path, map, images, options));
-  file.commit();
+  sfm::replaceFile(path, makePage(path, map, images, options));
 }
 
 }  // namespace report

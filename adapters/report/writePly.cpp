@@ -56,9 +56,7 @@ void writePly(const std::string& path, const sfm::SparseModel& map, const std::v
   for (const Frustum& frustum : frustaOf(map, depth)) vertices.add(frustum, kBlue);
   for (const ReportedImage& image : images)
     if (image.success) vertices.add(frustumOf(image, depth), kRed);
-  sfm::FileReplacement file;
-  file.write(path, vertices.file());
-  file.commit();
+  sfm::replaceFile(path, vertices.file());
 }
 
 }  // namespace report

@@ -2,6 +2,7 @@
 #include "ColmapBuilder.hpp"
 #include "Consistency.hpp"
 #include "FileContents.hpp"
+#include "FolderReplacement.hpp"
 #include "RigFiles.hpp"
 #include "UnknownModelSizes.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
@@ -101,6 +102,7 @@ void readImages(const std::string& path, ColmapBuilder& builder) {
 }  // namespace
 
 SparseModel readColmapBinary(const std::string& folder, const ReadOptions& options, ReadReport* report) {
+  checkIsComplete(folder);
   Mending mending(options, report);
   ColmapBuilder builder(mending);
   const std::string imagesPath = joinPath(folder, "images.bin"), pointsPath = joinPath(folder, "points3D.bin");

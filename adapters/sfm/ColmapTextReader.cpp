@@ -1,6 +1,7 @@
 #include "ColmapBuilder.hpp"
 #include "Consistency.hpp"
 #include "FileContents.hpp"
+#include "FolderReplacement.hpp"
 #include "Printable.hpp"
 #include "RigFiles.hpp"
 #include "TextScanner.hpp"
@@ -127,6 +128,7 @@ void readImages(const std::string& path, ColmapBuilder& builder) {
 }  // namespace
 
 SparseModel readColmapText(const std::string& folder, const ReadOptions& options, ReadReport* report) {
+  checkIsComplete(folder);
   Mending mending(options, report);
   ColmapBuilder builder(mending);
   const std::string imagesPath = joinPath(folder, "images.txt"), pointsPath = joinPath(folder, "points3D.txt");

@@ -1,6 +1,6 @@
 #include "ByteWriter.hpp"
 #include "ColmapPose.hpp"
-#include "FileContents.hpp"
+#include "FolderReplacement.hpp"
 #include "ModelChecks.hpp"
 #include "NumberWriter.hpp"
 #include "RigFiles.hpp"
@@ -9,10 +9,11 @@
 
 namespace hybridgv {
 namespace sfm {
+
 void writeColmapText(const std::string& folder, const SparseModel& model) {
   checkModel(model);
   const WrittenParts parts(model, WrittenParts::Format::Text);
-  FileReplacement files;
+  FolderReplacement files(folder);
   std::string text = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n";
   for (const Camera& camera : parts.cameras()) {
     appendNumber(text, camera.id);
@@ -21,7 +22,7 @@ void writeColmapText(const std::string& folder, const SparseModel& model) {
     appendNumbers(text, camera.parameters);
     text += '\n';
   }
-  files.write(joinPath(folder, "cameras.txt"), text);
+  files.write("cameras.txt", text);
 
   text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME\n# POINTS2D[] as (X Y POINT3D_ID)\n";
   for (const Image* image : parts.images()) {
@@ -38,7 +39,7 @@ void writeColmapText(const std::string& folder, const SparseModel& model) {
     }
     text += '\n';
   }
-  files.write(joinPath(folder, "images.txt"), text);
+  files.write("images.txt", text);
 
   text = "# POINT3D_ID X Y Z R G B ERROR TRACK[] as (IMAGE_ID POINT2D_IDX)\n";
   for (const Point& point : model.points) {
@@ -50,15 +51,15 @@ void writeColmapText(const std::string& folder, const SparseModel& model) {
       appendNumbers(text, std::array<std::uint64_t, 2>{model.images[e.image].id, e.observation});
     text += '\n';
   }
-  files.write(joinPath(folder, "points3D.txt"), text);
-  writeRigsText(folder, parts, files);
+  files.write("points3D.txt", text);
+  writeRigsText(parts, files);
   files.commit();
 }
 
 void writeColmapBinary(const std::string& folder, const SparseModel& model) {
   checkModel(model);
   const WrittenParts parts(model, WrittenParts::Format::Binary);
-  FileReplacement files;
+  FolderReplacement files(folder);
   std::string bytes;
   putInteger(bytes, parts.cameras().size(), 8);
   for (const Camera& camera : parts.cameras()) {
@@ -68,7 +69,7 @@ void writeColmapBinary(const std::string& folder, const SparseModel& model) {
     putInteger(bytes, camera.height, 8);
     for (const double value : camera.parameters) putNumber(bytes, value);
   }
-  files.write(joinPath(folder, "cameras.bin"), bytes);
+  files.write("cameras.bin", bytes);
 
   bytes.clear();
   putInteger(bytes, parts.images().size(), 8);
@@ -84,7 +85,7 @@ void writeColmapBinary(const std::string& folder, const SparseModel& model) {
       putInteger(bytes, o.point == Observation::kNoPoint ? ~std::uint64_t{0} : model.points[o.point].id, 8);
     }
   }
-  files.write(joinPath(folder, "images.bin"), bytes);
+  files.write("images.bin", bytes);
 
   bytes.clear();
   putInteger(bytes, model.points.size(), 8);
@@ -100,8 +101,8 @@ void writeColmapBinary(const std::string& folder, const SparseModel& model) {
       putInteger(bytes, e.observation, 4);
     }
   }
-  files.write(joinPath(folder, "points3D.bin"), bytes);
-  writeRigsBinary(folder, parts, files);
+  files.write("points3D.bin", bytes);
+  writeRigsBinary(parts, files);
   files.commit();
 }
 

@@ -50,33 +50,17 @@ void writeFile(const std::string& path, const std::string& contents) {
   if (!stream) throw FileError::inFile(path, "cannot be written");
 }
 
-namespace {
-
-constexpr const char* kUnfinished = ".tmp";
-
-}  // namespace
-
-FileReplacement::~FileReplacement() {
-  std::error_code ignored;
-  for (const std::string& path : written_) std::filesystem::remove(path + kUnfinished, ignored);
-}
-
-void FileReplacement::write(const std::string& path, const std::string& contents) {
-  written_.push_back(path);
-  writeFile(path + kUnfinished, contents);
-}
-
-void FileReplacement::commit() {
+void replaceFile(const std::string& path, const std::string& contents) {
+  const std::string unfinished = path + ".tmp";
   std::error_code error;
-  for (const std::string& path : written_) {
-    std::filesystem::rename(path + kUnfinished, path, error);
-    if (error) throw FileError::inFile(path, "cannot be written: " + error.message());
+  try {
+    writeFile(unfinished, contents);
+  } catch (const FileError&) {
+    std::filesystem::remove(unfinished, error);
+    throw;
   }
-  for (const std::string& path : removed_) {
-    std::filesystem::remove(path, error);
-    if (error) throw FileError::inFile(path, "cannot be removed");
-  }
-  written_.clear();
+  std::filesystem::rename(unfinished, path, error);
+  if (error) throw FileError::inFile(path, "cannot be written: " + error.message());
 }
 
 }  // namespace sfm

@@ -352,8 +352,8 @@ void readRigsBinary(const std::string& folder, Mending& mending, SparseModel& mo
   });
 }
 
-void writeRigsText(const std::string& folder, const WrittenParts& parts, FileReplacement& files) {
-  const std::string rigsFile = joinPath(folder, "rigs.txt"), framesFile = joinPath(folder, "frames.txt");
+void writeRigsText(const WrittenParts& parts, FolderReplacement& files) {
+  constexpr const char *rigsFile = "rigs.txt", *framesFile = "frames.txt";
   if (parts.model().rigs.empty()) {
     files.remove(rigsFile);
     files.remove(framesFile);
@@ -389,8 +389,8 @@ void writeRigsText(const std::string& folder, const WrittenParts& parts, FileRep
   files.write(framesFile, text);
 }
 
-void writeRigsBinary(const std::string& folder, const WrittenParts& parts, FileReplacement& files) {
-  const std::string rigsFile = joinPath(folder, "rigs.bin"), framesFile = joinPath(folder, "frames.bin");
+void writeRigsBinary(const WrittenParts& parts, FolderReplacement& files) {
+  constexpr const char *rigsFile = "rigs.bin", *framesFile = "frames.bin";
   if (parts.model().rigs.empty()) {
     files.remove(rigsFile);
     files.remove(framesFile);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "FileContents.hpp"
+#include "FolderReplacement.hpp"
 #include "Mending.hpp"
 #include "WrittenParts.hpp"
 #include "hybridgv/adapters/sfm/SparseModel.hpp"
@@ -18,8 +18,8 @@ void readRigsBinary(const std::string& folder, Mending& mending, SparseModel& mo
 
 // Writes them without what belongs to images that are not written. A model that has none leaves none in the folder: those of
 // another model would contradict its images.
-void writeRigsText(const std::string& folder, const WrittenParts& parts, FileReplacement& files);
-void writeRigsBinary(const std::string& folder, const WrittenParts& parts, FileReplacement& files);
+void writeRigsText(const WrittenParts& parts, FolderReplacement& files);
+void writeRigsBinary(const WrittenParts& parts, FolderReplacement& files);
 
 }  // namespace sfm
 }  // namespace hybridgv

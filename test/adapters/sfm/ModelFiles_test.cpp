@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "SfmScene.hpp"
@@ -127,9 +128,11 @@ TEST(ModelFiles, FailedWritingLeavesTheOldModel) {
   const TemporaryFolder folder;
   const SparseModel old = randomModel(8);
   writeColmapBinary(folder.path(), old);
-  std::filesystem::create_directory(folder.file("points3D.bin.tmp"));
+  std::ofstream(folder.path() + ".hybridgv-unfinished");
+  folder.write(".hybridgv-unfinished", "");
   EXPECT_THROW(writeColmapBinary(folder.path(), randomModel(9)), FileError);
-  std::filesystem::remove(folder.file("points3D.bin.tmp"));
+  std::filesystem::remove(folder.path() + ".hybridgv-unfinished");
+  std::filesystem::remove(folder.file(".hybridgv-unfinished"));
   expectEqual(readColmapBinary(folder.path()), old);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) files += entry.is_regular_file();
@@ -208,7 +211,7 @@ TEST(ModelFiles, WriterRejectsWhatItCannotWrite) {
   expectRejected([](SparseModel& m) { m.points[1].track.push_back(m.points[2].track.at(0)); });
   expectRejected([](SparseModel& m) { m.cameras[0].parameters.clear(); });
   expectRejected([](SparseModel& m) { m.cameras[0] = test::makeCamera(CameraModel::NvmRadial); });
-  EXPECT_THROW(writeColmapText(folder.file("missing"), randomModel(8)), FileError);
+  EXPECT_THROW(writeColmapText(folder.file("missing/model"), randomModel(8)), FileError);
 }
 
 // f, k1, k2, R, t, then points; x = R X + t, seen at -f (x, y) / z, y upwards.

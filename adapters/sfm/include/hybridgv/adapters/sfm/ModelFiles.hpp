@@ -60,11 +60,15 @@ HYBRIDGV_EXPORT SparseModel readBundler(const std::string& path, const ReadOptio
 /// focal lengths are fx and fy. A double quote in an image name stands for a space.
 HYBRIDGV_EXPORT SparseModel readNvm(const std::string& path, const ReadOptions& options = {}, ReadReport* report = nullptr);
 
-/// Writes cameras.txt, images.txt, points3D.txt into an existing folder; images that are neither registered nor carried along
+/// Writes cameras.txt, images.txt, points3D.txt into a folder, which is made if it is missing; images that are neither registered nor carried along
 /// (Image::carried) are left out. Rigs and frames too if the model has some; otherwise such files of another model are removed from
 /// the folder. Numbers are written with as many digits as are needed to read the same values again; what was read and has not been
-/// changed is written as it was. The files are written as FILE.tmp and take their places together at the end, so that an interrupted
-/// program leaves the old ones.
+/// changed is written as it was.
+///
+/// The files take their places together. They are written into FOLDER.hybridgv-unfinished, and that takes the folder's place at once: what else
+/// is in the folder remains. So whoever is killed leaves the old model or the new one. Where the system has no such exchange (it is
+/// Linux's), where the folder has subfolders, is the working folder or cannot be written beside, the files are moved one after the
+/// other in the end; a folder in which that was interrupted is not read until the next writer has completed it.
 /// \throws FileError if a file cannot be written; std::invalid_argument for a camera that COLMAP cannot describe (NvmRadial with
 ///         distortion; without, it becomes PINHOLE), or a model whose indices are not valid
 HYBRIDGV_EXPORT void writeColmapText(const std::string& folder, const SparseModel& model);
