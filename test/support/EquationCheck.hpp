@@ -95,9 +95,11 @@ class EquationCheck {
     const Eigen::Vector3d a = pose.rotation.transpose() * ray.direction.normalized();
     Eigen::Vector3d line = b.cross(a);
     // The line of sight and the ray nearly coincide with the baseline: no line.
-    if (!(line.norm() > 1e-6 * b.norm())) return "";
+    // Of the query from the ray: an error in the position turns the plane of both by its share of that.
+    const double distance = line.norm();
+    if (!(distance > 1e-6 * b.norm())) return "";
     line[2] *= pose.focalLength;
-    const double allowed = kTolerance * imageScale_ + rounding(pose, ray.u, ray.v, line.norm());
+    const double allowed = kTolerance * imageScale_ + rounding(pose, ray.u, ray.v, distance);
     if (!(allowed < imageScale_) || isGrazing(pose, ray.u, ray.v)) return "";
     const double error = std::abs(line.dot(Eigen::Vector3d(ray.u, ray.v, 1)));
     if (error > allowed * line.head<2>().norm()) return describe("rays are met", pose, error / line.head<2>().norm(), allowed);

@@ -10,6 +10,8 @@ namespace three_points {
 
 // Below this sine of an angle of the triangle, or distance of image points, the data count as degenerate.
 constexpr double kCoincident = 1e-9;
+// Above this sine, rounding leaves the axes as orthonormal as doubles can be.
+constexpr double kThin = 1e-2;
 
 static double distance(const ImagePoint& a, const ImagePoint& b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
@@ -21,10 +23,12 @@ bool ThreePointFrame::set(const PointMatch& m1, const PointMatch& m2, const Poin
   const double sideLength = side.norm();
   if (!(imageUnit > 0) || !(lengthUnit > 0)) return false;
   e1 = edge / lengthUnit;
-  const Eigen::Vector3d normal = side.cross(e1);
+  Eigen::Vector3d normal = side.cross(e1);
   const double altitude = normal.norm();
   if (!(altitude > kCoincident * std::max(sideLength, lengthUnit))) return false;
-  e3 = normal / altitude;
+  // Of vectors that are almost parallel the product is not quite perpendicular to either, by as much as has cancelled in it.
+  if (altitude < kThin * sideLength) normal -= e1.dot(normal) * e1;
+  e3 = normal.normalized();
   e2 = e3.cross(e1);
   x3 = m3.point;
   a1 = side.dot(e1) / lengthUnit;

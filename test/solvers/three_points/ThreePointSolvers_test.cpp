@@ -66,6 +66,24 @@ TEST_P(ThreePointSolver, FindsTheTruthAndReturnsOnlySolutions) {
   EXPECT_LE(lost, GetParam().allowedFailures);
 }
 
+// The third point is near the line of the other two. Whatever is returned is a rotation to rounding.
+TEST_P(ThreePointSolver, PosesFromThinTrianglesAreRotations) {
+  int poses = 0;
+  for (const double thin : {1e-3, 1e-5, 1e-7, 1e-8})
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      Random random(testSeed() + 8, i);
+      MinimalProblem problem = makeProblem(random);
+      const Eigen::Vector3d &first = problem.points[0].point, edge = problem.points[1].point - first;
+      const Eigen::Vector3d third = first + random.uniform(0.2, 0.8) * edge + thin * edge.norm() * random.direction();
+      problem.points[2] = makePointMatch(problem.truth, third);
+      for (const FocalPose& pose : solve(GetParam(), problem)) {
+        EXPECT_LT((pose.rotation.transpose() * pose.rotation - Eigen::Matrix3d::Identity()).norm(), 1e-13) << thin << ", " << i;
+        ++poses;
+      }
+    }
+  EXPECT_GT(poses, 100) << "there is something to check";
+}
+
 // Median relative errors of the focal length [%] with noisy image points: of the solution returned first and of the best one.
 struct FocalErrors {
   double first, best;
