@@ -3,13 +3,14 @@
 # COLMAP (the reference); then maps that lack some; then every image that a map lacks, by this library from both kinds of matches and from
 # 2D-3D matches alone, and by COLMAP's image_registrator.
 #
-#   sh real_photos.sh [options] IMAGES ...              folders of images, one for each scene
+#   sh real_photos.sh [options] IMAGES ...              folders of images, one for each scene; or COLMAP's databases with matched features
 #   sh real_photos.sh [options] --prepared FOLDER ...   folders with database.db, maps and reference.txt (see PhotoSets.hpp)
 #
 #   --work FOLDER    where everything is written (build/real_photos); what is there already is not made again
 #   --every N        leave out every N-th image only
 #   --queries LIST   leave out the images named in this file, all at once, and nothing else
 #   --sizes "3 4 5"  maps of so many images, chosen at random from those that share points with the one that is left out
+#   --draws N        so many maps of each size for each image (1)
 #   --matcher NAME   exhaustive (default) or sequential; a file of visual words: vocab_tree with it
 #   --gpu            COLMAP may use the graphics card
 #   --seed S         of the choice of images
@@ -18,7 +19,7 @@
 # Maps: fold.K, made by COLMAP's mapper of two thirds of the images; without.I, all images but one, and N_images.I, both with the reference's
 # poses and points triangulated from these images alone.
 root=$(cd "$(dirname "$0")/../.." && pwd)
-work=$root/build/real_photos every=1 queries= sizes="3 4 5" matcher=exhaustive gpu=0 seed=1 build= prepared=no
+work=$root/build/real_photos every=1 queries= sizes="3 4 5" draws=1 matcher=exhaustive gpu=0 seed=1 build= prepared=no
 die() { echo "real_photos.sh: $1" >&2; exit 1; }
 while [ $# -gt 0 ]; do
   case $1 in
@@ -26,6 +27,7 @@ while [ $# -gt 0 ]; do
     --every) every=$2 && shift ;;
     --queries) queries=$(realpath "$2") && shift ;;
     --sizes) sizes=$2 && shift ;;
+    --draws) draws=$2 && shift ;;
     --matcher) matcher=$2 && shift ;;
     --seed) seed=$2 && shift ;;
     --build) build=$(realpath "$2") && shift ;;
@@ -58,11 +60,16 @@ names_of() { grep -v '^#' "$1/images.txt" | sed -n 'p;n' | cut -d ' ' -f 10-; }
 # Of the models in a folder, the one with the most images.
 largest_model() {
   for model in "$1"/*/; do
+    [ -d "$model" ] || continue
     echo "$(colmap model_analyzer --path "$model" 2>&1 | sed -n 's/.*Registered images: //p') $model"
   done | sort -n | tail -1 | cut -d ' ' -f 2-
 }
 
 match_images() {
+  if [ -f "$source" ]; then
+    cp "$source" "$set/database.db" && chmod u+w "$set/database.db" && mkdir -p "$images"
+    return
+  fi
   must_colmap feature_extractor --database_path "$set/database.db" --image_path "$images" --SiftExtraction.use_gpu $gpu
   case $matcher in
     exhaustive | sequential) must_colmap "${matcher}_matcher" --database_path "$set/database.db" --SiftMatching.use_gpu $gpu ;;
@@ -82,7 +89,7 @@ reconstruct_all() {
   names_of "$set/text" > "$set/names.txt"
 }
 
-# make_map NAME: a map of the images in kept.txt, with the reference's poses and points of their own.
+# make_map NAME [IMAGE]: a map of the images in kept.txt, with the reference's poses and points of their own, in which the image is looked for.
 make_map() {
   map=$set/maps/$1
   mkdir -p "$map" "$set/posed"
@@ -90,7 +97,11 @@ make_map() {
   run_colmap image_deleter --input_path "$set/reference" --output_path "$set/posed" --image_names_path "$set/deleted.txt" &&
     run_colmap point_triangulator --database_path "$set/database.db" --image_path "$images" --input_path "$set/posed" \
       --output_path "$map" --clear_points 1
-  [ -e "$map/images.bin" ] || { echo "no map $1: $(tail -1 "$set/log.txt")" && rm -rf "$map"; }
+  if [ ! -e "$map/images.bin" ]; then
+    echo "no map $1: $(tail -1 "$set/log.txt")" && rm -rf "$map"
+  elif [ -n "$2" ]; then
+    echo "$2" > "$map/queries.txt"
+  fi
 }
 
 # As many images as are wanted, of those that share 15 points or more with the one whose name is $1.
@@ -117,7 +128,7 @@ make_folds() {
     mkdir -p "$set/fold"
     run_colmap mapper --database_path "$set/database.db" --image_path "$images" --image_list_path "$set/kept.txt" --output_path "$set/fold"
     model=$(largest_model "$set/fold")
-    if [ -e "$model/images.bin" ]; then mv "$model" "$set/maps/fold.$fold"; else echo "no map fold.$fold"; fi
+    if [ -e "$model/images.bin" ]; then mv "$model" "$set/maps/fold.$fold"; else echo "no map fold.$fold: COLMAP finds none"; fi
     rm -rf "$set/fold"
   done
 }
@@ -133,12 +144,11 @@ make_maps() {
   awk -v every="$every" '(NR - 1) % every == 0 { print NR " " $0 }' "$set/names.txt" > "$set/left_out.txt"
   while read -r number name; do
     grep -vxF -e "$name" "$set/names.txt" > "$set/kept.txt"
-    make_map "without.$number"
+    make_map "without.$number" "$name"
     for size in $sizes; do
-      choose_partners "$name" "$size" "$number" && make_map "${size}_images.$number"
-    done
-    for map in "$set"/maps/*."$number"; do
-      case $map in */fold.*) ;; *) [ ! -d "$map" ] || echo "$name" > "$map/queries.txt" ;; esac
+      for draw in $(seq "$draws"); do
+        choose_partners "$name" "$size" "$number$draw" && make_map "${size}_images.$number.$draw" "$name"
+      done
     done
   done < "$set/left_out.txt"
 }
@@ -193,15 +203,17 @@ command -v colmap > /dev/null || [ "$prepared" = yes ] || die "COLMAP is missing
 mkdir -p "$work" && work=$(realpath "$work")
 count=$#
 for folder; do
-  images=$(realpath "$folder")
-  [ -d "$images" ] || die "$images: no such folder"
-  set=$work/$(basename "$images")
+  source=$(realpath "$folder")
+  [ -d "$source" ] || [ -f "$source" -a "$prepared" = no ] || die "$source: no such folder"
+  set=$work/$(basename "$source" .db)
+  images=$source
+  [ -d "$source" ] || images=$set/no_images  # COLMAP asks for a folder of images, but needs their colours only
   if [ ! -e "$set/done" ]; then
     rm -rf "$set" && mkdir -p "$set"
-    echo "$images"
+    echo "$source"
     if [ "$prepared" = yes ]; then
-      [ -e "$images/reference.txt" ] || die "$images has no reference.txt"
-      cp -r "$images"/. "$set" && chmod -R u+w "$set"
+      [ -e "$source/reference.txt" ] || die "$source has no reference.txt"
+      cp -r "$source"/. "$set" && chmod -R u+w "$set"
     else
       match_images && reconstruct_all && make_maps
     fi

@@ -11,7 +11,7 @@ set logscale y
 set xrange [0.5:kinds + 0.5]
 set xtics rotate by -35
 set key top right font ",8"
-set offsets 0, 0, graph 0.4, 0
+set offsets 0, 0, graph 0.25, 0
 set bars 0
 do for [column in "7 11"] {
   set ylabel column eq "7" ? "focal length [%]" : "position [% of the depth]"
