@@ -71,6 +71,15 @@ if [ -e "$realdata/photos/reference.txt" ]; then
     expect "$(value all "$method" $focal) < 0.8 && $(value all "$method" $position) < 1.2"  # measured: 0.65 and 0.44, 0.96 and 0.51
     expect "$(value all "$method" $focal) < $(value all "2D-3D only; verified matches" $focal)"
   done
+  # From features and matches on: the reference, and maps of three images and of all but one.
+  if command -v colmap > /dev/null; then
+    sh "$script" --work chain --build "$build" --every 5 --sizes 3 "$realdata/photos/database.db" > log 2>&1 || fail "the chain: $(cat log)"
+    for kind in 3_images without; do
+      rows=$(grep -c "^database,$kind," chain/real_photos.csv)
+      [ "$rows" = 6 ] || fail "$rows methods on maps $kind: $(cat log)"
+    done
+    [ "$(grep "^database,without,hybrid; verified" chain/real_photos.csv | cut -d, -f 6)" = 100 ] || fail "all but one: $(cat log)"
+  fi
 else
   echo "no folder $realdata/photos: its part is skipped"
 fi
