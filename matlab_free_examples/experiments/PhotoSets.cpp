@@ -108,6 +108,7 @@ std::vector<PhotoMap> readPhotoMaps(const std::string& folder) {
   std::set<fs::path> paths;
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(folder) / "maps")) paths.insert(entry.path());
   std::vector<PhotoMap> maps;
+  maps.reserve(paths.size());
   for (const fs::path& path : paths) maps.push_back(readMap(path, reference));
   if (maps.empty()) throw std::runtime_error(folder + "/maps is empty");
   return maps;

@@ -214,7 +214,7 @@ void writeRows(CsvFile& csv, const std::string& key, const std::vector<Attempt>&
     if (byMethod.count(attempt.method) == 0) order.push_back(attempt.method);
     byMethod[attempt.method].push_back(attempt);
   }
-  for (const std::string& method : order) writeRow(csv, key + "," + method, byMethod[method]);
+  for (const std::string& method : order) writeRow(csv, text(key, ',', method), byMethod[method]);
 }
 
 std::string remark(const Settings& settings) {
