@@ -344,11 +344,7 @@ bool HybridSearch::isDone() {
 }
 
 // The best model to full precision.
-FinalPose HybridSearch::polishBest() {
-  FinalPose result = optimizer_.finish(optimumOfBest());
-  best_.pose = result.pose;
-  return findBetterBeside(result) ? optimizer_.finish(optimizer_.polish(best_.pose)) : result;
-}
+FinalPose HybridSearch::polishBest() { return bestBeside(optimizer_.finish(optimumOfBest())); }
 
 // Keeps the distortion only if the data speak for it.
 Optimum HybridSearch::optimumOfBest() {
@@ -370,15 +366,45 @@ void HybridSearch::takeOutDistortion() {
   findThresholds(best_);
 }
 
-// Where groups of correspondences disagree by much more than their noise, the likelihood has optima near each other, one for each part of
-// them that is believed. The best model becomes a better one of these, if it is found from nearer or farther away.
-bool HybridSearch::findBetterBeside(const FinalPose& pose) {
-  constexpr double kDisagreement = 2, kDeviations = 2, kLargestStep = 0.25;
-  if (!pose.isRegular || !(pose.disagreement > kDisagreement)) return false;
-  const double step = std::min(kDeviations * std::sqrt(varianceOfLogFocalLength(pose.covariance, estimated_)), kLargestStep);
-  const double before = optimizer_.logLikelihood(best_.pose);
-  escapeLocalOptimum(best_, {std::exp(step), std::exp(-step)});
-  return best_.logLikelihood > before + kLeastGain;
+// Where groups of correspondences (the rays of a camera) disagree by much more than their noise, and a lens of which little is known can give
+// way, the likelihood has optima near each other, one for each part of them that is believed. From each side, the best of these
+// within the deviation is looked for.
+FinalPose HybridSearch::bestBeside(FinalPose best) const {
+  if (!lens_.isUnknown) return best;
+  constexpr int kRounds = 3;
+  constexpr double kDisagreement = 2, kDeviations = 2;
+  bool isBest = false;
+  for (int round = 0; round < kRounds && !isBest; ++round) {
+    isBest = true;
+    const double deviation = deviationOf(best);
+    if (!(deviation < kSmallDeviation) || !(best.effectiveParameters > kDisagreement * estimated_.parameters())) break;
+    const double step = kDeviations * deviation;
+    const FinalPose others[] = {polishedAtDistance(best, std::exp(step)), polishedAtDistance(best, std::exp(-step))};
+    for (const FinalPose& other : others) {
+      if (!isBetterDetermined(other, best)) continue;
+      best = other;
+      isBest = false;
+    }
+  }
+  return best;
+}
+
+FinalPose HybridSearch::polishedAtDistance(const FinalPose& pose, double factor) const {
+  const QueryPose start = optimizer_.atDistance(pose.pose, factor);
+  return optimizer_.finish(optimizer_.polish(optimizer_.settle(start, optimizer_.moreThanChance(start))));
+}
+
+// Better determined, and likelier: for these correspondences, or for other groups of the same kind, which do not share the errors to
+// which a pose has been fitted (Takeuchi's criterion, by groups).
+bool HybridSearch::isBetterDetermined(const FinalPose& pose, const FinalPose& than) const {
+  if (!(deviationOf(pose) <= deviationOf(than))) return false;
+  const double gain = optimizer_.logLikelihood(pose.pose) - optimizer_.logLikelihood(than.pose);
+  return gain > kLeastGain || gain - (pose.effectiveParameters - than.effectiveParameters) > kLeastGain;
+}
+
+double HybridSearch::deviationOf(const FinalPose& pose) const {
+  return pose.isRegular ? std::sqrt(varianceOfLogFocalLength(pose.covariance, estimated_))
+                        : std::numeric_limits<double>::infinity();
 }
 
 // The noise that is found at a pose depends on what counts as an inlier. So wrong rays, where there are many, can hold a pose near the

@@ -104,7 +104,11 @@ class HybridSearch {
   void escapeLocalOptimum(Model& model, std::initializer_list<double> distanceFactors) const;
   FinalPose polishBest();
   Optimum optimumOfBest();
-  bool findBetterBeside(const FinalPose& pose);
+  FinalPose bestBeside(FinalPose best) const;
+  FinalPose polishedAtDistance(const FinalPose& pose, double factor) const;
+  bool isBetterDetermined(const FinalPose& pose, const FinalPose& than) const;
+  // Of log f.
+  double deviationOf(const FinalPose& pose) const;
   void takeOutDistortion();
   void setBest(const Model& model, bool isSignificant);
   void learnFrom(const Model& model);

@@ -33,9 +33,8 @@ constexpr double kSureDeviation = 0.05;
 // The errors of truncated least squares count as if their deviation were the truncation, which is several times too much. The prior of
 // the distortion must count less in the same way.
 constexpr double kPriorOfTruncated = 0.05;
-// Ratios of deviations, see allowForHiddenErrors. Those of the hidden errors were found on real models, and the number of a camera's rays
-// whose noise counts as much.
-constexpr double kClearlyLarger = 2.5, kLeastHidden = 1.4, kMostHidden = 3, kManyRays = 200;
+// Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
+constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
 std::size_t countBelow(const std::vector<double>& squaredErrors, double threshold) {
   const auto isBelow = [&](double e) { return e < threshold * threshold; };
@@ -91,28 +90,13 @@ LeastSquaresProblem narrowed(LeastSquaresProblem problem, const PaddedValues& na
   return problem;
 }
 
-// Of how many rays the camera of a ray has, the mean over all rays.
-double raysOfOneCamera(const std::vector<int>& cameras) {
-  std::vector<double> counts;
-  for (const int camera : cameras) {
-    const auto number = static_cast<std::size_t>(camera);
-    if (number >= counts.size()) counts.resize(number + 1);
-    ++counts[number];
-  }
-  const double all = static_cast<double>(cameras.size());
-  return all > 0 ? std::inner_product(counts.begin(), counts.end(), counts.begin(), 0.) / all : 0;
-}
-
-// The noise of many rays of one camera averages out, the errors of its pose and focal length do not: the more rays, the less each tells.
-double hiddenShare(double raysOfCamera) { return std::min(kLeastHidden * std::sqrt(1 + raysOfCamera / kManyRays), kMostHidden); }
-
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
-// least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as worse by the
-// hidden share, unless one is clearly the noisier.
-void allowForHiddenErrors(double hiddenShare, double& ray, double& point) {
+// least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as somewhat
+// worse, unless one is clearly the noisier.
+void allowForHiddenErrors(double& ray, double& point) {
   const double larger = std::max(ray, point);
   if (larger > kClearlyLarger * std::min(ray, point)) return;
-  ray = hiddenShare * larger;
+  ray = kHiddenShare * larger;
   point = larger;
 }
 
@@ -123,7 +107,6 @@ LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chan
     : scorer_(scorer),
       chance_(chance),
       groups_(std::move(groups)),
-      hiddenShare_(hiddenShare(raysOfOneCamera(groups_.rays))),
       minFocalLength_(minFocalLength),
       maxFocalLength_(maxFocalLength),
       estimated_(estimated),
@@ -315,7 +298,7 @@ Noise LocalOptimizer::noise(const SquaredErrors& errors) const {
 }
 
 Noise LocalOptimizer::mixtures(PerKind<double> deviations, const SquaredErrors& errors) const {
-  if (!errors.rays.empty() && !errors.points.empty()) allowForHiddenErrors(hiddenShare_, deviations.rays, deviations.points);
+  if (!errors.rays.empty() && !errors.points.empty()) allowForHiddenErrors(deviations.rays, deviations.points);
   const PerKind<double>& bound = scorer_.bounds();
   const double ray = std::min(kDeviationsOfAll * deviations.rays, bound.rays);
   const double point = std::min(kDeviationsOfAll * deviations.points, bound.points);
@@ -403,10 +386,7 @@ FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
 void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const {
   const Derivatives at = derivatives(inliers, result.pose);
   result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, at, result.covariance);
-  ParameterMatrix ofIndependentErrors;
-  if (result.isRegular && estimated_.focalLength && invertInformation(at.information, ofIndependentErrors))
-    result.disagreement =
-        varianceOfLogFocalLength(result.covariance, estimated_) / varianceOfLogFocalLength(ofIndependentErrors, estimated_);
+  if (result.isRegular) result.effectiveParameters = (at.information * result.covariance).trace();
 }
 
 }  // namespace robust

@@ -28,7 +28,7 @@ struct FinalPose {
   Noise noise;
   bool isRegular = false;                // the inliers fix all parameters
   ParameterMatrix covariance;            // for this noise, and for errors that groups of inliers share (Jackknife.hpp)
-  double disagreement = 1;               // variance of log f over that for independent errors
+  double effectiveParameters = 0;        // tr(H V), H the information for independent errors, V the covariance
   double deviationWithoutLevers = 0;     // of log f, if rays with large leverages are left out
   std::vector<std::size_t> refusedRays;  // are no inliers, whatever their errors
 };
@@ -105,7 +105,6 @@ class LocalOptimizer {
   const PoseScorer& scorer_;
   const ChanceModel& chance_;
   JackknifeGroups groups_;
-  double hiddenShare_;  // see allowForHiddenErrors
   double minFocalLength_, maxFocalLength_;
   Intrinsics estimated_;
   Lens lens_;
