@@ -79,6 +79,24 @@ grep -q 'photo_18.jpg' text/images.txt || fail "text"
 register --output_path new/out --output_type TXT 2> error
 [ $? = 2 ] && grep -q 'would hide' error || fail "text beside a binary model"
 
+# A camera whose model is newer than this program keeps its line, its image keeps its two lines, and both stay in the points' tracks.
+register --output_path tomorrow --output_type TXT --Mapper.abs_pose_min_num_inliers 100000 --quiet || fail "the map as text"
+sed 's/^\([0-9]*\) [A-Z_]* \(.*\)/\1 OPENCV_OF_TOMORROW \2 0.10000000000000001 -3/; 4,$d' tomorrow/cameras.txt > changed
+sed 1,3d tomorrow/cameras.txt >> changed && mv changed tomorrow/cameras.txt
+cp -r tomorrow today
+[ "$(grep -c OPENCV_OF_TOMORROW today/cameras.txt)" = 2 ] || fail "two cameras of tomorrow: $(cat today/cameras.txt)"
+"$program" image_registrator --database_path database.db --input_path tomorrow --output_path tomorrow --output_type TXT > table 2> summary ||
+  fail "a map with cameras of tomorrow"
+grep -q 'registered 8 of 10' summary || fail "a map with cameras of tomorrow: $(cat summary)"
+sed 's/0.10000000000000001/0.1/' today/cameras.txt | grep OPENCV_OF_TOMORROW > before
+grep OPENCV_OF_TOMORROW tomorrow/cameras.txt | cmp - before || fail "cameras of tomorrow"
+for camera in $(cut -d ' ' -f 1 before); do
+  for when in today tomorrow; do awk -v c=$camera 'NF == 10 && $9 == c { shown = 2 } shown-- > 0' $when/images.txt > images_$when; done
+  [ "$(wc -l < images_today)" = 2 ] && cmp images_today images_tomorrow || fail "images of camera $camera"
+done
+awk 'NR == FNR { line[$1] = $0; next } $1 in line && index($0, line[$1]) != 1 { print; bad = 1 } END { exit bad }' today/points3D.txt tomorrow/points3D.txt ||
+  fail "tracks are continued, the rest of the points is as it was"
+
 # COLMAP's options, and its project files.
 register --output_path options --Mapper.ba_refine_focal_length 1 --log_to_stderr=1 --Mapper.tri_min_angle 2 > table 2> summary || fail "options of COLMAP"
 [ "$(grep -c 'not used: ' summary)" = 3 ] || fail "options that mean nothing: $(cat summary)"
