@@ -1,0 +1,90 @@
+#include "robust/LocalOptimizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "HybridScene.hpp"
+#include "statistics.hpp"
+
+namespace hybridgv {
+namespace {
+
+using namespace robust;
+
+constexpr double kNoise = 1;
+constexpr int kParameters = 7, kCameras = 6;
+
+// The bearings of each rig camera are turned by up to some pixels.
+test::HybridScene makeScene(test::Random& random, double commonError) {
+  test::SceneOptions options;
+  options.rays = 600;
+  options.points = 60;
+  options.cameras = kCameras;
+  options.imageNoise = kNoise;
+  test::HybridScene scene = test::makeHybridScene(random, options);
+  std::vector<Eigen::Vector3d> errors;
+  for (int k = 0; k < kCameras; ++k) errors.push_back(commonError / test::kRigFocalLength * random.direction());
+  for (std::size_t i = 0; i < scene.bearings.size(); ++i)
+    scene.bearings[i] = (scene.bearings[i] + errors[static_cast<std::size_t>(scene.cameras[i])]).normalized();
+  return scene;
+}
+
+struct Data {
+  explicit Data(const test::HybridScene& scene)
+      : arrays(scene.adapter(), correspondences::allIndices(scene.bearings.size()),
+               correspondences::allIndices(scene.points.size())),
+        scorer(arrays, {40, 60}, sac::Scoring::Msac),
+        chance(arrays, 40, 60),
+        optimizer(scorer, chance, {scene.cameras, correspondences::allIndices(scene.points.size())}, 0, 1e9),
+        truth(arrays.normalization().apply(scene.truth)) {}
+
+  correspondences::CorrespondenceArrays arrays;
+  PoseScorer scorer;
+  ChanceModel chance;
+  LocalOptimizer optimizer;
+  QueryPose truth;
+};
+
+double effectiveParameters(double commonError, std::uint64_t stream) {
+  test::Random random(test::testSeed(), stream);
+  std::vector<double> numbers;
+  for (int i = 0; i < 30; ++i) {
+    const Data data(makeScene(random, commonError));
+    const FinalPose pose = data.optimizer.finish(data.optimizer.polish(data.truth));
+    EXPECT_TRUE(pose.isRegular);
+    EXPECT_GE(pose.effectiveParameters, kParameters - 1e-6);
+    numbers.push_back(pose.effectiveParameters);
+  }
+  return test::median(numbers);
+}
+
+TEST(LocalOptimizer, PoseTakesUpAsManyParametersAsItHasIfErrorsAreIndependent) {
+  EXPECT_LT(effectiveParameters(0, 150), 1.3 * kParameters);
+}
+
+TEST(LocalOptimizer, PoseTakesUpMoreThanItsParametersWhereRaysOfACameraShareAnError) {
+  EXPECT_GT(effectiveParameters(12, 151), 2 * kParameters);
+}
+
+TEST(LocalOptimizer, KeptPoseStaysAsItIsAndHasTheNoiseOfItsErrors) {
+  test::Random random(test::testSeed(), 152);
+  const Data data(makeScene(random, 0));
+  const FinalPose kept = data.optimizer.finish(data.optimizer.keep(data.truth));
+  EXPECT_EQ(kept.pose.position, data.truth.position);
+  EXPECT_EQ(kept.pose.focalLength, data.truth.focalLength);
+  EXPECT_TRUE(kept.refusedRays.empty());
+  EXPECT_NEAR(kept.noise.points.deviation, kNoise, 0.3);
+}
+
+TEST(LocalOptimizer, FewRoundsFromAPolishedPoseLeadToTheSameOne) {
+  test::Random random(test::testSeed(), 153);
+  const Data data(makeScene(random, 0));
+  const Optimum first = data.optimizer.polish(data.truth), again = data.optimizer.polish(first.pose, 2);
+  EXPECT_LT((again.pose.position - first.pose.position).norm(), 1e-3);
+  EXPECT_NEAR(again.pose.focalLength / first.pose.focalLength, 1, 1e-4);
+}
+
+}  // namespace
+}  // namespace hybridgv
