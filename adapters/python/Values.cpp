@@ -174,6 +174,8 @@ py::dict dictOf(const sac::HybridRansacResult& result) {
   dict["num_inliers_rays"] = result.numberInliers2d2d;
   dict["noise_points"] = result.noise2d3d;
   dict["noise_rays"] = result.noise2d2d;
+  dict["second_pose"] = result.secondPose ? py::object(tupleOf(*result.secondPose)) : py::object(py::none());
+  dict["second_pose_support"] = result.secondPoseSupport;
   addSearch(result, dict);
   return dict;
 }

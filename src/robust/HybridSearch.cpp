@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "robust/SampleCheck.hpp"
 #include "robust/sampleLimit.hpp"
@@ -62,12 +63,12 @@ FocalLengthGuess makeGuess(const sac::HybridRansacOptions& options, const Corres
 
 }  // namespace
 
-HybridSearch::HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,
+HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const sac::HybridRansacOptions& options,
                            Clock::time_point start)
     : options_(options),
       start_(start),
-      all_(readSearchData(adapter, options)),
-      part_(partOf(all_, adapter, options)),
+      all_(std::move(all)),
+      part_(std::move(part)),
       data_(part_ ? *part_ : all_),
       lens_(makeLens(data_.arrays, options)),
       estimated_{!options.knownFocalLengthPx, lens_.isUnknown},
@@ -165,7 +166,7 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
 // Or, as long as no pose is believed, if it is the best minimal solution so far.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   const bool isPromising = significance_.isPromising(candidate.logChance);
-  if (bestIsSignificant_) return isPromising;
+  if (bestIsSignificant_ || promisingOnly_) return isPromising;
   const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
   if (isBest) bestCandidate_ = candidate;
   return isPromising || isBest;

@@ -38,11 +38,14 @@ struct Model {
 // that the threads may try them in any order.
 class HybridSearch {
  public:
-  HybridSearch(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options, Clock::time_point start);
+  // `part`: of all, those that are searched in, if they are many.
+  HybridSearch(SearchData all, std::optional<SearchData> part, const sac::HybridRansacOptions& options, Clock::time_point start);
 
   bool canStart() const { return !choice_.strategies().empty() || options_.initialPose; }
   // Rays enough, but no scale: they come from one rig camera.
   bool lacksScale() const;
+  // Minimal solutions that may well be chance are never optimized: for a search that is not expected to find anything.
+  void considerPromisingOnly() { promisingOnly_ = true; }
   void run();
   // Final optimization of the best model (or only its noise and information).
   FinalPose finish(bool optimize);
@@ -53,6 +56,9 @@ class HybridSearch {
   const Model& best() const { return best_; }
   const SolverChoice& choice() const { return choice_; }
   const SearchData& data() const { return all_; }
+  const SearchData& searchedData() const { return data_; }
+  // Of the searched data, with the thresholds as they are now.
+  InlierMasks inliersOf(const QueryPose& pose) const { return scorer_.inliers(pose); }
   // Of the best model, over all correspondences, after `finish`.
   const PerKind<std::vector<char>>& inliers() const { return inliers_; }
   double score() const { return score_; }
@@ -146,7 +152,7 @@ class HybridSearch {
   PerKind<std::vector<char>> inliers_;
   double score_ = 0;
   std::optional<Candidate> bestCandidate_;
-  bool bestIsSignificant_ = false;
+  bool bestIsSignificant_ = false, promisingOnly_ = false;
   Expectation expectation_;           // once a pose is significant
   Expectation ofThreePointsAtFirst_;  // of a pose from three points at least, before
   int iterations_ = 0, mostIterations_ = 0, localOptimizations_ = 0;

@@ -93,11 +93,15 @@ std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::Hybri
   constexpr std::size_t kEnough = 1000;
   if (all.rayIndices.size() <= kEnough && all.pointIndices.size() <= kEnough) return std::nullopt;
   const std::vector<int> rays = someRays(all.arrays, kEnough);
-  const std::vector<int> points = correspondences::allIndices(std::min(all.pointIndices.size(), kEnough));
+  return partAt(rays, correspondences::allIndices(std::min(all.pointIndices.size(), kEnough)), all, adapter, options);
+}
+
+SearchData partAt(const std::vector<int>& rays, const std::vector<int>& points, const SearchData& all,
+                  const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options) {
   std::vector<int> rayIndices = at(all.rayIndices, rays), pointIndices = at(all.pointIndices, points);
   CorrespondenceArrays arrays = all.arrays.subset(rays, points);
   Sampler sampler = makeSampler(adapter, arrays, rayIndices, pointIndices, options.sampling);
-  return SearchData{std::move(rayIndices), std::move(pointIndices), std::move(arrays), std::move(sampler)};
+  return {std::move(rayIndices), std::move(pointIndices), std::move(arrays), std::move(sampler)};
 }
 
 }  // namespace robust

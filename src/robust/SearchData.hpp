@@ -21,6 +21,10 @@ struct SearchData {
 // Reads everything that the adapter has. Throws std::invalid_argument for data or weights that are not finite.
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options);
 
+// Of all, those at these places of the arrays. The normalization stays that of all.
+SearchData partAt(const std::vector<int>& rays, const std::vector<int>& points, const SearchData& all,
+                  const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options);
+
 // A thousand of each kind tell as good as all where a pose is, and cost less. Every camera keeps rays. None if there are not more.
 std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::HybridAdapterBase& adapter,
                                  const sac::HybridRansacOptions& options);

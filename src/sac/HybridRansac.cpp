@@ -4,9 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "hybridgv/distortion.hpp"
 #include "robust/HybridSearch.hpp"
+#include "robust/SecondPose.hpp"
 
 namespace hybridgv {
 namespace sac {
@@ -108,6 +111,16 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   result.success = result.failureReason == FailureReason::None;
 }
 
+void setSecondPose(const std::optional<robust::SecondPose>& second, const robust::HybridSearch& search,
+                   HybridRansacResult& result) {
+  if (!second) return;
+  result.secondPose = search.data().arrays.normalization().undo(second->pose);
+  result.secondPoseSupport = second->support;
+  if (second->support <= robust::kAsGood) return;
+  result.success = false;
+  result.failureReason = FailureReason::AmbiguousPose;
+}
+
 }  // namespace
 
 HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, const HybridRansacOptions& options) {
@@ -116,7 +129,9 @@ HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, c
   HybridRansacResult result;
   result.covariance.fill(std::numeric_limits<double>::infinity());
 
-  robust::HybridSearch search(adapter, options, start);
+  robust::SearchData data = robust::readSearchData(adapter, options);
+  std::optional<robust::SearchData> part = robust::partOf(data, adapter, options);
+  robust::HybridSearch search(std::move(data), std::move(part), options, start);
   result.inliers2d2d.resize(search.data().rayIndices.size());
   result.inliers2d3d.resize(search.data().pointIndices.size());
   if (!search.canStart()) {
@@ -125,6 +140,7 @@ HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, c
     search.run();
     setStatistics(search, result);
     if (search.hasModel()) setPose(search, options, result);
+    if (result.success) setSecondPose(robust::findSecondPose(search, adapter, options, start), search, result);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

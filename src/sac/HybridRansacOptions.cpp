@@ -113,6 +113,8 @@ const char* toString(FailureReason reason) {
       return "inliers may be chance";
     case FailureReason::UndeterminedPose:
       return "pose not determined by the inliers";
+    case FailureReason::AmbiguousPose:
+      return "another pose is as good";
   }
   throwInvalid("reason", "no such value: " + std::to_string(static_cast<int>(reason)));
 }

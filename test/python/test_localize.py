@@ -45,6 +45,18 @@ def test_finds_pose_and_focal_length(scene, camera):
     assert result.iterations == sum(result.iterations_per_solver.values())
 
 
+def test_two_poses_that_are_as_good_are_no_success(camera):
+    one, other = make_scene(21, points=120, rays=0), make_scene(22, points=120, rays=0)
+    points2D = np.concatenate([one.points2D, other.points2D])
+    points3D = np.concatenate([one.points3D, other.points3D + [100, 0, 0]])
+    result = hybridgv.localize(points2D, points3D, camera=camera)
+    assert not result.success and result.failure_reason == "another pose is as good"
+    assert result.second_pose_support > 0.8
+    assert abs(result.second_pose.position - result.position).max() > 50
+    alone = hybridgv.localize(*one.arrays[:2], camera=camera)
+    assert alone.success and alone.second_pose is None and alone.second_pose_support == 0
+
+
 def test_points_alone_and_rays_alone(camera):
     scene = make_scene(3, points=80, rays=120)
     assert_right(hybridgv.localize(scene.points2D, scene.points3D, camera=camera), scene, 0.02)

@@ -164,6 +164,17 @@ class Result(Conventions, Mapping[str, Any]):
         return float(self._values["noise_rays"])
 
     @property
+    def second_pose(self) -> Optional[FocalPose]:
+        """Another pose that other correspondences agree with, as where a facade repeats itself; None if none was met."""
+        values = self._values["second_pose"]
+        return None if values is None else FocalPose(*values)
+
+    @property
+    def second_pose_support(self) -> float:
+        """Correspondences that only second_pose explains, over those that only this pose does. Above 0.8 there is no success."""
+        return float(self._values["second_pose_support"])
+
+    @property
     def solver(self) -> Optional[str]:
         """The minimal solver whose solution led to the pose."""
         solver: Optional[str] = self._values["solver"]

@@ -37,6 +37,14 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
 
+  /// Another pose that correspondences agree with which are no inliers of `pose`, more of them than chance gives: as where a facade
+  /// repeats itself, or the map has the same thing twice. Which of the two is right, correspondences cannot tell. It is looked for
+  /// after a success, among the correspondences that are no inliers, if these are at least 0.8 times as many; missed with a
+  /// probability of at most 5 % if it has 0.8 of the support. Empty without one.
+  std::optional<FocalPose> secondPose;
+  /// The correspondences that only secondPose explains, over those that only `pose` explains. Above 0.8 there is no success.
+  double secondPoseSupport = 0;
+
   /// Of the division model, undistorted = (u, v) / (1 + distortion (u^2 + v^2)) [1/px^2], to which pose.focalLength belongs; see
   /// distortion.hpp. 0 if options.queryCamera is Pinhole, and if the data do not speak for distortion.
   double distortion = 0;

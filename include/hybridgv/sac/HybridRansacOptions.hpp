@@ -118,6 +118,8 @@ enum class FailureReason {
   NoModel,                ///< no sample gave a pose with inliers
   InliersMayBeChance,     ///< wrong poses of random data have as many inliers
   UndeterminedPose,       ///< the inliers do not fix all seven parameters; without points, rays of one rig camera never do
+  /// other correspondences agree with another pose, and are more than four fifths as many (HybridRansacResult::secondPose)
+  AmbiguousPose,
 };
 
 /// What ended the search.
