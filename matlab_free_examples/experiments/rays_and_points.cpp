@@ -58,6 +58,7 @@ void measure(const Cell& cell, int scenes, const CommonOptions& common, ErrorTab
     options.seed = common.seed + index;
     options.threads = common.threads;
     for (const Kinds& kinds : kAllKinds) {
+      if (!kinds.points && cell.pointNoise > 0) continue;  // the same as without
       const hybridgv::NoncentralHybridAdapter adapter = adapterOf(scene, kinds);
       int iterations = 0;
       table.add(

@@ -163,7 +163,7 @@ HYBRIDGV_EXPORT FocalPoses h70f(const HybridAdapterBase& adapter);
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices, data that are not finite, and a focal length that is
 ///         not positive and finite
 ///
-/// The two points leave two angles, of which one is eliminated: a form of degree 16, searched where the points are in front; about 0.14
+/// The two points leave two angles, of which one is eliminated: a form of degree 16, searched where the points are in front; about 0.1
 /// times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses h22(const HybridAdapterBase& adapter, double focalLength,
                                const std::vector<std::vector<int>>& indices);

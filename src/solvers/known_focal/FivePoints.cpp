@@ -53,20 +53,18 @@ Matrix3d crossMatrix(const Vector3d& v) {
   return result;
 }
 
-// The right null vector of a matrix of rank 2.
-Vector3d nullVector(const Matrix3d& E) {
-  Vector3d best = Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Vector3d candidate = Vector3d(E.row(i)).cross(Vector3d(E.row((i + 1) % 3)));
-    if (candidate.squaredNorm() > best.squaredNorm()) best = candidate;
-  }
-  return best.normalized();
-}
-
 Matrix3d cofactors(const Matrix3d& E) {
   Matrix3d result;
   for (int i = 0; i < 3; ++i) result.row(i) = Vector3d(E.row((i + 1) % 3)).cross(Vector3d(E.row((i + 2) % 3)));
   return result;
+}
+
+// The right null vector of a matrix of rank 2, to which every row of its cofactors is parallel.
+Vector3d nullVector(const Matrix3d& cofactors) {
+  int largest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (cofactors.row(i).squaredNorm() > cofactors.row(largest).squaredNorm()) largest = i;
+  return cofactors.row(largest).normalized();
 }
 
 void orthonormalize(Matrix3d& R) {
@@ -109,18 +107,17 @@ FivePoints::FivePoints(const RayMatch* rays) : rays_(rays), imageScale_(0) {
   }
 }
 
-// R = cof(E) - E [b]x with E b = 0 and |E|^2 = 2, t = R b; the other rotation is (2 t t^T - I) R.
+// R = cof(E) - E [b]x with E b = 0 and |E|^2 = 2, t = R b; the other rotation is (2 t t^T - I) R = 2 t b^T - R.
 void FivePoints::addMotionsOf(const Matrix3d& matrix) {
   const double norm = matrix.norm();
   if (!(norm > 0) || !std::isfinite(norm)) return;
   const Matrix3d E = std::sqrt(2.) / norm * matrix;
-  const Vector3d b = nullVector(E);
-  Motion motion;
-  motion.R = cofactors(E) - E * crossMatrix(b);
-  motion.t = motion.R * b;
-  const Matrix3d other = 2 * motion.t * (motion.t.transpose() * motion.R) - motion.R;
-  addInFront(motion.R, motion.t);
-  addInFront(other, motion.t);
+  Matrix3d R = cofactors(E);
+  const Vector3d b = nullVector(R);
+  for (int i = 0; i < 3; ++i) R.row(i) -= Vector3d(E.row(i)).cross(b);
+  const Vector3d t = R * b;
+  addInFront(R, t);
+  addInFront(2 * t * b.transpose() - R, t);
 }
 
 // Adds the motion by t or by -t, if all rays meet in front for one of them.
