@@ -350,7 +350,7 @@ FinalPose HybridSearch::polishBest() { return bestBeside(optimizer_.finish(optim
 // Keeps the distortion only if the data speak for it.
 Optimum HybridSearch::optimumOfBest() {
   constexpr int kFewRounds = 2;
-  const Optimum result = optimizer_.polish(best_.pose);
+  Optimum result = optimizer_.polish(best_.pose);
   if (!estimated_.radial || optimizer_.logEvidenceForDistortion(result) > options_.distortionEvidence) return result;
   best_.pose = result.pose;
   takeOutDistortion();
@@ -371,7 +371,7 @@ void HybridSearch::takeOutDistortion() {
 // way, the likelihood has optima near each other, one for each part of them that is believed. From each side, the best of these
 // within the deviation is looked for.
 FinalPose HybridSearch::bestBeside(FinalPose best) const {
-  if (!lens_.isUnknown) return best;
+  if (!lens_.isUnknown || !estimated_.focalLength) return best;
   constexpr int kRounds = 3;
   constexpr double kDisagreement = 2, kDeviations = 2;
   bool isBest = false;
@@ -447,7 +447,7 @@ FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   scorer.setThresholds(scorer_.thresholds());
   const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
   const LocalOptimizer optimizer = makeOptimizer(scorer, chance);
-  const FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
+  FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
   best_.pose = result.pose;
   scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   judgeAll(scorer);

@@ -169,7 +169,7 @@ QueryPose LocalOptimizer::refuseLevers(const LeastSquaresProblem& robust, const 
   RayTreatment without = treatment;
   without.refuse(levers);
   const PaddedValues narrowing = without.narrowing();
-  const QueryPose pose = minimize(narrowed(robust, narrowing), start, limits(steps)).pose;
+  QueryPose pose = minimize(narrowed(robust, narrowing), start, limits(steps)).pose;
   ParameterMatrix covariance;
   if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds), narrowing), pose), covariance)) return start;
 

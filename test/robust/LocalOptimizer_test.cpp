@@ -24,8 +24,8 @@ test::HybridScene makeScene(test::Random& random, double commonError) {
   options.cameras = kCameras;
   options.imageNoise = kNoise;
   test::HybridScene scene = test::makeHybridScene(random, options);
-  std::vector<Eigen::Vector3d> errors;
-  for (int k = 0; k < kCameras; ++k) errors.push_back(commonError / test::kRigFocalLength * random.direction());
+  std::vector<Eigen::Vector3d> errors(kCameras);
+  for (Eigen::Vector3d& error : errors) error = commonError / test::kRigFocalLength * random.direction();
   for (std::size_t i = 0; i < scene.bearings.size(); ++i)
     scene.bearings[i] = (scene.bearings[i] + errors[static_cast<std::size_t>(scene.cameras[i])]).normalized();
   return scene;
