@@ -349,12 +349,11 @@ FinalPose HybridSearch::polishBest() { return bestBeside(optimizer_.finish(optim
 
 // Keeps the distortion only if the data speak for it.
 Optimum HybridSearch::optimumOfBest() {
-  constexpr int kFewRounds = 2;
   Optimum result = optimizer_.polish(best_.pose);
   if (!estimated_.radial || optimizer_.logEvidenceForDistortion(result) > options_.distortionEvidence) return result;
   best_.pose = result.pose;
   takeOutDistortion();
-  return optimizer_.polish(best_.pose, kFewRounds);
+  return optimizer_.polish(best_.pose);
 }
 
 void HybridSearch::takeOutDistortion() {

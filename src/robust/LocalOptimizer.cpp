@@ -363,10 +363,11 @@ Optimum LocalOptimizer::polishNear(const QueryPose& start) const {
   return keep(likeliest(start, moreThanChance(start), 1, {4, 1e-8}));
 }
 
-Optimum LocalOptimizer::polish(const QueryPose& start, int rounds) const {
+Optimum LocalOptimizer::polish(const QueryPose& start) const {
   const Kinds kinds = moreThanChance(start);
   RayTreatment treatment(scorer_.arrays().rays().size());
-  if (!estimated_.focalLength) rounds = std::min(rounds, 2);  // one that is not free gives the levers less to move
+  // A focal length that is not free gives the levers less to move. With unknown distortion this is done twice, with and without it.
+  const int rounds = estimated_.focalLength && !lens_.isUnknown ? 3 : 2;
   const QueryPose pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, rounds, {20, 1e-8}, treatment);
   return optimumAt(pose, kinds, treatment);
 }

@@ -44,9 +44,8 @@ class LocalOptimizer {
   QueryPose refine(const QueryPose& start) const;
   // To a local optimum of the likelihood; the noise of each kind is estimated on the way.
   QueryPose settle(const QueryPose& start, const Kinds& kinds) const;
-  // The same to full precision, and with single rays kept from deciding alone (Levers.hpp, Leverage.hpp), which takes some rounds; fewer
-  // from a pose that has been polished with another lens.
-  Optimum polish(const QueryPose& start, int rounds = 3) const;
+  // The same to full precision, and with single rays kept from deciding alone (Levers.hpp, Leverage.hpp).
+  Optimum polish(const QueryPose& start) const;
   // The same from a pose that was polished for a part of the correspondences.
   Optimum polishNear(const QueryPose& start) const;
   // A pose as it is.
