@@ -42,11 +42,14 @@ hybridgv::NoncentralHybridAdapter adapterOf(HybridScene scene, const Kinds& kind
   return scene.adapter();
 }
 
+// With few matches it is their number that decides, not their noise.
 std::vector<Cell> allCells() {
   std::vector<Cell> cells;
-  for (const double outliers : {0., 0.3, 0.5, 0.7})
+  for (const double outliers : {0., 0.3, 0.5, 0.7}) {
+    for (const int matches : {6, 8, 12, 16, 30}) cells.push_back({matches, 0, outliers});
     for (const double pointNoise : {0., 0.1, 0.3})
       for (const int matches : {10, 20, 50, 100, 200, 500}) cells.push_back({matches, pointNoise, outliers});
+  }
   return cells;
 }
 
