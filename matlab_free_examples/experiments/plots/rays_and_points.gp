@@ -11,7 +11,7 @@ set xtics (10, 20, 50, 100, 200, 500)
 set yrange [0.1:100]
 set xlabel "matches of each kind"
 set ylabel "median error of the focal length [%]"
-set key bottom left
+set key top right
 finite(x) = x < 1e9 ? x : NaN
 do for [outliers in "0 30 50 70"] {
   set title sprintf("%s %% outliers", outliers)
