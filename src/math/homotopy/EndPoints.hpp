@@ -10,7 +10,7 @@ namespace math {
 // begins once as many steps as one round may take have been spent.
 constexpr int kMaxStepsFirstPass = 300;
 constexpr int kMaxStepsSecondPass = 600;
-constexpr int kMaxStepsPerRound = 8000;
+constexpr int kMaxStepsPerRound = 7000;
 constexpr int kMaxRounds = 8;
 
 template <int Unknowns, int MaxPaths>
