@@ -8,6 +8,7 @@ rows(kind, matches) = sprintf("< awk -F, '/^focal_length/ || ($1 == \"%s\" && $2
 eval "set terminal " . terminal(1300, 400)
 set output output("known_focal_length")
 set multiplot layout 1, 4 title "Queries localized with a known focal length and without it; noise of the 3D points 1 % of the depth"
+set xrange [0:75]
 set yrange [0:105]
 set xlabel "outliers [%]"
 set ylabel "within 5 degrees and 20 % of focal length [%]"
