@@ -184,9 +184,10 @@ class H22 {
 
   // Newton's method for theta and psi, of which the latter has any length.
   void refine(Direction theta, Direction psi) {
-    const double length = std::sqrt(psi.c * psi.c + psi.s * psi.s);
-    if (!(length > 0)) return;
-    psi = {psi.c / length, psi.s / length};
+    const double largest = std::max(std::abs(psi.c), std::abs(psi.s));  // whose square may underflow
+    if (!(largest > 0)) return;
+    const double c = psi.c / largest, s = psi.s / largest, inverse = 1 / std::sqrt(c * c + s * s);
+    psi = {c * inverse, s * inverse};
     bool isConverged = false;
     for (int step = 0; step < 6 && !isConverged; ++step) {
       const Angle<double> at = points_.angle(theta.c, theta.s);
