@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "robust/Overlap.hpp"
 #include "robust/SampleCheck.hpp"
 #include "robust/sampleLimit.hpp"
 
@@ -166,10 +167,19 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
 // Or, as long as no pose is believed, if it is the best minimal solution so far.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   const bool isPromising = significance_.isPromising(candidate.logChance);
-  if (bestIsSignificant_ || promisingOnly_) return isPromising;
+  if (bestIsSignificant_ || promisingOnly_) return isPromising && !leadsToBest(candidate.model.pose);
   const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
   if (isBest) bestCandidate_ = candidate;
   return isPromising || isBest;
+}
+
+// With a known focal length there are no optima along distance and focal length (escapeLocalOptimum): a pose whose inliers are the best
+// one's, but for a few, leads to the same optimum.
+bool HybridSearch::leadsToBest(const QueryPose& pose) const {
+  if (!bestIsSignificant_ || !options_.localOptimization || estimated_.focalLength || estimated_.radial) return false;
+  constexpr double kNew = 0.05;
+  const Overlap inliers = overlap(scorer_.inliers(best_.pose), scorer_.inliers(pose));
+  return inliers.onlySecond < kNew * inliers.both;
 }
 
 void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {

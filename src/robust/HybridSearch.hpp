@@ -59,6 +59,8 @@ class HybridSearch {
   const SearchData& searchedData() const { return data_; }
   // Of the searched data, with the thresholds as they are now.
   InlierMasks inliersOf(const QueryPose& pose) const { return scorer_.inliers(pose); }
+  const PerKind<double>& bounds() const { return scorer_.bounds(); }
+  QueryPose optimized(const QueryPose& pose) const { return optimizer_.refine(pose); }
   // Of the best model, over all correspondences, after `finish`.
   const PerKind<std::vector<char>>& inliers() const { return inliers_; }
   double score() const { return score_; }
@@ -119,6 +121,7 @@ class HybridSearch {
   void setBest(const Model& model, bool isSignificant);
   void learnFrom(const Model& model);
   bool isWorthConsidering(const Candidate& candidate);
+  bool leadsToBest(const QueryPose& pose) const;
   bool isBetter(const Model& model, bool isSignificant) const;
   bool isDone();
   bool isOutOfTime() const;

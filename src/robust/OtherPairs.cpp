@@ -33,15 +33,39 @@ std::vector<ImagePoint> imagePoints(const CorrespondenceArrays& arrays) {
   return result;
 }
 
-// The nearest of the first candidates, nearest first, of those that count. (Whether one does is asked only if it is near.)
+// Candidates of one group in columns, so that the distances to all of them are computed many at once.
+class Candidates {
+ public:
+  void add(std::size_t index, const Eigen::Vector3d& position) {
+    index_.push_back(index);
+    x_.push_back(position[0]);
+    y_.push_back(position[1]);
+    z_.push_back(position[2]);
+  }
+  std::size_t size() const { return index_.size(); }
+  std::size_t index(std::size_t k) const { return index_[k]; }
+  void squaredDistancesFrom(const Eigen::Vector3d& position, std::vector<double>& result) const {
+    const double x = position[0], y = position[1], z = position[2];
+    result.resize(size());
+    for (std::size_t k = 0; k < size(); ++k) {
+      const double dx = x_[k] - x, dy = y_[k] - y, dz = z_[k] - z;
+      result[k] = dx * dx + dy * dy + dz * dz;
+    }
+  }
+
+ private:
+  std::vector<std::size_t> index_;
+  std::vector<double> x_, y_, z_;
+};
+
+// The nearest candidates, nearest first, of those that count. (Whether one does is asked only if it is near.)
 class Nearest {
  public:
-  template <class SquaredDistance, class Counts>
-  Nearest(std::size_t candidates, SquaredDistance squaredDistance, Counts counts) {
-    for (std::size_t j = 0; j < std::min(candidates, kCandidates); ++j) {
-      const double distance = squaredDistance(j);
-      if ((size_ < kNeighbours || distance < distance_[size_ - 1]) && counts(j)) insert(distance, j);
-    }
+  template <class Counts>
+  Nearest(const Candidates& candidates, const std::vector<double>& squaredDistances, Counts counts) {
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      if ((size_ < kNeighbours || squaredDistances[k] < distance_[size_ - 1]) && counts(candidates.index(k)))
+        insert(squaredDistances[k], candidates.index(k));
   }
   std::size_t size() const { return size_; }
   std::size_t operator[](std::size_t k) const { return index_[k]; }
@@ -61,6 +85,18 @@ class Nearest {
   std::array<double, kNeighbours> distance_{};
   std::array<std::size_t, kNeighbours> index_{};
 };
+
+// Of the first matches, by group.
+template <class Matches, class Group, class Position>
+std::vector<Candidates> candidatesOf(const Matches& matches, Group group, Position position) {
+  std::vector<Candidates> result;
+  for (std::size_t j = 0; j < std::min(matches.size(), kCandidates); ++j) {
+    const auto of = static_cast<std::size_t>(group(matches[j]));
+    if (of >= result.size()) result.resize(of + 1);
+    result[of].add(j, position(matches[j]));
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -100,24 +136,27 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, std::uint64_t 
 }
 
 OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence) {
-  const auto pairUp = [](const auto& matches, auto squaredDistance, auto counts) {
+  std::vector<double> squaredDistances;
+  const auto pairUp = [&](const auto& matches, auto group, auto position, auto isSame) {
     Partners partners = noPartners(std::min(matches.size(), kAskersOfNeighbours), kNeighbours);
+    const std::vector<Candidates> candidates = candidatesOf(matches, group, position);
     for (std::size_t i = 0; i < partners.size; ++i) {
-      const Nearest nearest(
-          matches.size(), [&](std::size_t j) { return squaredDistance(matches[i], matches[j]); },
-          [&](std::size_t j) { return counts(i, j); });
+      const Candidates& others = candidates[static_cast<std::size_t>(group(matches[i]))];
+      others.squaredDistancesFrom(position(matches[i]), squaredDistances);
+      const Nearest nearest(others, squaredDistances, [&](std::size_t j) { return !isSame(i, j); });
       for (std::size_t k = 0; k < nearest.size(); ++k) setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
     }
     return partners;
   };
   OtherPairs result(arrays);
-  const std::vector<RayMatch>& rays = arrays.rays();
   result.rays_ = pairUp(
-      rays, [](const RayMatch& a, const RayMatch& b) { return (a.direction - b.direction).squaredNorm(); },
-      [&](std::size_t i, std::size_t j) { return rays[i].camera == rays[j].camera && !evidence.isSameRay(i, j); });
+      arrays.rays(), [](const RayMatch& ray) { return ray.camera; },
+      [](const RayMatch& ray) -> const Eigen::Vector3d& { return ray.direction; },
+      [&](std::size_t i, std::size_t j) { return evidence.isSameRay(i, j); });
   result.points_ = pairUp(
-      arrays.points(), [](const PointMatch& a, const PointMatch& b) { return (a.point - b.point).squaredNorm(); },
-      [&](std::size_t i, std::size_t j) { return !evidence.isSamePoint(i, j); });
+      arrays.points(), [](const PointMatch&) { return 0; },
+      [](const PointMatch& match) -> const Eigen::Vector3d& { return match.point; },
+      [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); });
   return result;
 }
 
