@@ -15,7 +15,7 @@ using sac::HybridRansacOptions;
 using sac::HybridRansacResult;
 using test::HybridScene;
 
-constexpr int kScenes = 200;
+constexpr int kScenes = 60;
 
 HybridScene makeScene(std::uint64_t seed, std::uint64_t index, int ofEachKind, double outliers) {
   test::Random random(test::testSeed() + seed, index);
