@@ -30,7 +30,10 @@ for solver in h51f h70f; do
   $target-objdump -d "$(find $build/src -path "*solvers/$solver/solvePathsVersion.baseline.cpp.o")" | grep -q 'fml[as].*\.4s'
 done
 
-# The longest ones (H51f, H70f, the contract) take some ten minutes each.
-export emulator build
+# Homotopies take two hundred times as long under qemu as on a processor with wide vectors. Their own tests (h51f_test, h70f_test) run
+# whole, in some twenty minutes; of the other programs' tests those that track thousands of them are left out.
+long="*WrongRaysAlone*:*RaysAloneOfManyCameras*:*h51f*:*h70f_*:Situations*"
+export emulator build long
 printf '%s\n' $tests | xargs -I TEST -P "$jobs" sh -c '
-  if $emulator $build/test/TEST --gtest_brief=1 >$build/TEST.log 2>&1; then echo "TEST: passed"; else cat $build/TEST.log; exit 255; fi'
+  case TEST in h51f_test | h70f_test) filter= ;; *) filter="--gtest_filter=-$long" ;; esac
+  if $emulator $build/test/TEST --gtest_brief=1 $filter >$build/TEST.log 2>&1; then echo "TEST: passed"; else cat $build/TEST.log; exit 255; fi'
