@@ -5,10 +5,8 @@
 //
 // Writes focal_length_guess.csv.
 #include "../common/CsvFile.hpp"
-#include "../common/Options.hpp"
-#include "ErrorTable.hpp"
 #include "WideScene.hpp"
-#include "common/ProgressBar.hpp"
+#include "cells.hpp"
 #include "estimate.hpp"
 
 namespace {
@@ -94,11 +92,8 @@ void measure(const Cell& cell, int scenes, const CommonOptions& common, ErrorTab
 }
 
 void run(const CommonOptions& common, int scenes) {
-  const std::vector<Cell> cells = allCells();
-  ProgressBar progress(cells.size(), !common.quiet);
-  ErrorTable table;
-  for (std::size_t i = 0; i < cells.size(); ++i, progress.step())
-    if (!common.quick || i % 50 == 0) measure(cells[i], scenes, common, table);
+  const ErrorTable table =
+      measureCells(allCells(), common, 50, [&](const Cell& cell, ErrorTable& rows) { measure(cell, scenes, common, rows); });
   table.write(
       common.output, "focal_length_guess.csv",
       text(scenes, " scenes each, seed ", common.seed, "; image of 1000 px, noise ", kImageNoisePx,
@@ -111,10 +106,6 @@ void run(const CommonOptions& common, int scenes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"P3P at a guess of the focal length beside P4Pf, where the guess is right and where it is far off."};
-  CommonOptions common;
-  int scenes = 20;
-  addCommonOptions(app, common, "threads of hybridRansac");
-  app.add_option("--scenes", scenes, "scenes for each row (--quick: 2)")->check(CLI::Range(1, 100000))->capture_default_str();
-  return runExperiment(app, argc, argv, [&] { run(common, common.quick ? 2 : scenes); });
+  return runSceneExperiment(
+      argc, argv, "P3P at a guess of the focal length beside P4Pf, where the guess is right and where it is far off.", 20, run);
 }

@@ -3,10 +3,8 @@
 //
 // Writes known_focal_length.csv.
 #include "../common/CsvFile.hpp"
-#include "../common/Options.hpp"
-#include "ErrorTable.hpp"
 #include "HybridScene.hpp"
-#include "common/ProgressBar.hpp"
+#include "cells.hpp"
 #include "estimate.hpp"
 
 namespace {
@@ -76,11 +74,8 @@ void measure(const Cell& cell, int scenes, const CommonOptions& common, ErrorTab
 }
 
 void run(const CommonOptions& common, int scenes) {
-  const std::vector<Cell> cells = allCells();
-  ProgressBar progress(cells.size(), !common.quiet);
-  ErrorTable table;
-  for (std::size_t i = 0; i < cells.size(); ++i, progress.step())
-    if (!common.quick || i % 7 == 0) measure(cells[i], scenes, common, table);
+  const ErrorTable table =
+      measureCells(allCells(), common, 7, [&](const Cell& cell, ErrorTable& rows) { measure(cell, scenes, common, rows); });
   table.write(
       common.output, "known_focal_length.csv",
       text(scenes, " scenes each, seed ", common.seed, "; five map cameras, image noise ", kImageNoisePx,
@@ -94,10 +89,7 @@ void run(const CommonOptions& common, int scenes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"hybridRansac with known focal length, without it, and with a focal length that is set right afterwards."};
-  CommonOptions common;
-  int scenes = 100;
-  addCommonOptions(app, common, "threads of hybridRansac");
-  app.add_option("--scenes", scenes, "scenes for each row (--quick: 2)")->check(CLI::Range(1, 100000))->capture_default_str();
-  return runExperiment(app, argc, argv, [&] { run(common, common.quick ? 2 : scenes); });
+  return runSceneExperiment(
+      argc, argv, "hybridRansac with known focal length, without it, and with a focal length that is set right afterwards.", 100,
+      run);
 }

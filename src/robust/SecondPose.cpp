@@ -19,9 +19,9 @@ std::vector<int> placesOfOutliers(const std::vector<char>& inliers) {
 // A sample of three has inliers only (kAsGood / (1 - b))^3 times as often as in the search for the best pose, with which the share b of
 // all agrees, and may be missed more often.
 int samples(double shareOfBest, int ofBest, const sac::HybridRansacOptions& options) {
-  constexpr double kMiss = 0.05, kLeast = 8;
+  constexpr double kMiss = 0.05, kLeast = 24;
   const double perSample = std::pow(kAsGood / (1 - shareOfBest), 3);
-  const double needed = ofBest / perSample * std::log(kMiss) / std::log(1 - options.successProbability);
+  const double needed = ofBest / perSample * std::log(kMiss) / std::log1p(-options.successProbability);
   return static_cast<int>(std::min(std::max(needed, kLeast), static_cast<double>(options.maxIterations)));
 }
 

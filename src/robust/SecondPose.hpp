@@ -17,7 +17,7 @@ struct SecondPose {
 };
 
 // Searches among the correspondences that are no inliers of the best pose, after `finish`, if they are enough for a second one that
-// is as good; it is missed with a probability of at most 5 %. Only a pose that could be relied on without the best one counts.
+// is as good; samples of three miss it with a probability of at most 5 %. Only a pose that could be relied on without the best one counts.
 std::optional<SecondPose> findSecondPose(const HybridSearch& search, const hybrid_pose::HybridAdapterBase& adapter,
                                          const sac::HybridRansacOptions& options, Clock::time_point start);
 

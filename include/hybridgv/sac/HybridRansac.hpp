@@ -32,15 +32,17 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
   /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d, and from what happens to
-  /// the pose if the rays of one rig camera, or one of 64 groups of points, are left out (jackknife), so that errors of the rig show. Errors that
-  /// all correspondences share, such as those of the principal point, do not. All infinite if the inliers do not fix the pose.
+  /// the pose if the rays of one rig camera, or one of 64 groups of points, are left out (jackknife), so that errors of the rig show.
+  /// Errors that all correspondences share, such as those of the principal point, do not. All infinite if the inliers do not fix the
+  /// pose.
   std::array<double, 49> covariance{};
   double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
 
   /// Another pose that correspondences agree with which are no inliers of `pose`, more of them than chance gives: as where a facade
   /// repeats itself, or the map has the same thing twice. Which of the two is right, correspondences cannot tell. It is looked for
-  /// after a success, among the correspondences that are no inliers, if these are at least 0.8 times as many; missed with a
-  /// probability of at most 5 % if it has 0.8 of the support. Empty without one.
+  /// after a success, among the correspondences that are no inliers, if these are at least 0.8 times as many. One with 0.8 of the
+  /// support is seldom missed (5 % for samples of three points, more often if rays alone agree with it). Empty without one. Under
+  /// QueryCamera::Radial its focal length belongs to a distortion of its own, which is not reported.
   std::optional<FocalPose> secondPose;
   /// The correspondences that only secondPose explains, over those that only `pose` explains. Above 0.8 there is no success.
   double secondPoseSupport = 0;
