@@ -60,21 +60,26 @@ struct Member {
   double g1, g2;
 };
 
+// y as a zero of y^3 - 3 p y - F, improved by Newton's method or, with the second derivative, by Halley's.
+double newtonStep(double y, double p, double F) { return y - (y * (y * y - 3 * p) - F) / (3 * (y * y - p)); }
+double halleyStep(double y, double p, double F) {
+  const double value = y * (y * y - 3 * p) - F, slope = 3 * (y * y - p);
+  return y - value * slope / (slope * slope - 3 * y * value);
+}
+
 // The real root of y^3 - 3 p y + F that is farthest from zero; its sign is opposite to that of F.
 double outermostRoot(double p, double F) {
   const double absF = std::abs(F), square = F * F - 4 * p * p * p;
   double y;
   if (square < 0) {
-    y = std::sqrt(3 * p) + (1 - std::sqrt(3.) / 2) * absF / p;  // exact at both ends of the interval of F
+    // Of three real roots 2 sqrt(p) cos(arccos(t) / 3) is the largest: here to 8e-4, after both steps to rounding.
+    const double root = std::sqrt(p), t = absF / (2 * p * root);
+    y = root * (1.732787 + t * (0.319656 - t * 0.052919));
+    y = newtonStep(halleyStep(y, p, absF), p, absF);
   } else {
     const double u = std::cbrt((absF + std::sqrt(square)) / 2);
     if (!(u > 0)) return 0;
-    y = u + p / u;
-  }
-  for (int step = 0; step < 3; ++step) {
-    const double change = (y * (y * y - 3 * p) - absF) / (3 * (y * y - p));
-    if (!(std::abs(change) > 1e-16 * y)) break;
-    y -= change;
+    y = newtonStep(u + p / u, p, absF);  // where p < 0 the two may cancel
   }
   return F > 0 ? -y : y;
 }
@@ -96,8 +101,12 @@ Member lines(const Triangle& t, const Conic& D1, const Conic& D2) {
   const double abs0 = std::abs(k0), abs3 = std::abs(k3);
   if (std::max(abs0, abs3) <= 1e-14 * std::max(std::abs(k1), std::abs(k2)))
     return std::abs(k1) >= std::abs(k2) ? Member{1, 0} : Member{0, 1};
-  if (abs3 > abs0) return {1, cubicRoot(k2 / k3, k1 / k3, k0 / k3)};
-  return {cubicRoot(k1 / k0, k2 / k0, k3 / k0), 1};
+  if (abs3 > abs0) {
+    const double r = 1 / k3;
+    return {1, cubicRoot(r * k2, r * k1, r * k0)};
+  }
+  const double r = 1 / k0;
+  return {cubicRoot(r * k1, r * k2, r * k3), 1};
 }
 
 class P3p {
@@ -116,7 +125,7 @@ class P3p {
                      member.g1 * D1.yy + member.g2 * D2.yy,
                      member.g1 * D1.yz + member.g2 * D2.yz,
                      member.g1 * D1.zz + member.g2 * D2.zz};
-    split(both, std::abs(member.g2) > std::abs(member.g1) ? D1 : D2);
+    split(both, (std::abs(member.g2) > std::abs(member.g1) ? D1 : D2).matrix());
     return count_;
   }
 
@@ -124,13 +133,13 @@ class P3p {
   // The lines p, q of D = p q^T + q p^T. With z = p x q, adj D = -z z^T, and D + s [z]x has rank 1 for s = 1 or -1: its rows are
   // multiples of one line, its columns of the other. s is such that nothing cancels in the entry (j, k), which row j and column k
   // share. Without a real z the lines are complex, and there is no solution.
-  void split(const Conic& D, const Conic& other) {
+  void split(const Conic& D, const Matrix3d& other) {
     const Matrix3d matrix = D.matrix(), adjugate = D.adjugate().matrix();
     int i = 0;
     for (int n = 1; n < 3; ++n)
       if (adjugate(n, n) < adjugate(i, i)) i = n;
     if (!(adjugate(i, i) < 0)) return;
-    const Vector3d z = adjugate.col(i) / -std::sqrt(-adjugate(i, i));
+    const Vector3d z = adjugate.col(i) * (-1 / std::sqrt(-adjugate(i, i)));
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double s = matrix(j, k) < 0 ? 1 : -1;
     Vector3d row = matrix.row(j), column = matrix.col(k);
@@ -144,30 +153,36 @@ class P3p {
   }
 
   // The points of a line with positive coordinates on the other conic. A line that meets the positive octant has one coefficient
-  // whose sign differs from the others'; there l_a = |line_c| s, l_b = |line_c| t, l_c = |line_a| s + |line_b| t with s/t > 0.
-  void intersect(const Vector3d& line, const Conic& D) {
+  // whose sign differs from the others'; there l_a = |line_c| s, l_b = |line_c| t, l_c = |line_a| s + |line_b| t with s/t > 0, and the
+  // conic is alpha s^2 + 2 beta s t + gamma t^2.
+  void intersect(const Vector3d& line, const Matrix3d& D) {
     const bool negative[3] = {line[0] < 0, line[1] < 0, line[2] < 0};
     if (negative[0] == negative[1] && negative[1] == negative[2]) return;
     const int c = negative[0] == negative[1] ? 2 : (negative[0] == negative[2] ? 1 : 0);
     const int a = (c + 1) % 3, b = (c + 2) % 3;
-    Vector3d A, B;
-    A[a] = B[b] = std::abs(line[c]);
-    A[b] = B[a] = 0;
-    A[c] = std::abs(line[a]);
-    B[c] = std::abs(line[b]);
-    const Matrix3d matrix = D.matrix();
-    const Vector3d DB = matrix * B;
-    const double alpha = A.dot(matrix * A), beta = A.dot(DB), gamma = B.dot(DB);
+    const double la = std::abs(line[a]), lb = std::abs(line[b]), lc = std::abs(line[c]);
+    const double ac = lc * D(a, c) + la * D(c, c), bc = lc * D(b, c) + lb * D(c, c);
+    const double alpha = lc * (lc * D(a, a) + la * D(a, c)) + la * ac, beta = lc * (lc * D(a, b) + la * D(b, c)) + lb * ac,
+                 gamma = lc * (lc * D(b, b) + lb * D(b, c)) + lb * bc;
     const double discriminant = beta * beta - alpha * gamma;
     if (!(discriminant > -kDouble * beta * beta)) return;
     const double h = -(beta + std::copysign(std::sqrt(std::max(discriminant, 0.)), beta));
-    if (h * alpha > 0) add(std::abs(h) * A + std::abs(alpha) * B);
-    if (h * gamma > 0) add(std::abs(gamma) * A + std::abs(h) * B);
+    const auto addAt = [&](double s, double t) {
+      Vector3d depths;
+      depths[a] = lc * s;
+      depths[b] = lc * t;
+      depths[c] = la * s + lb * t;
+      add(depths);
+    };
+    if (h * alpha > 0) addAt(std::abs(h), std::abs(alpha));
+    if (h * gamma > 0) addAt(std::abs(gamma), std::abs(h));
   }
 
   void add(Vector3d depths) {
-    depths /= std::sqrt(leftSides(triangle_.cosine, depths).sum());
-    refine(depths);
+    Pairs left = leftSides(triangle_.cosine, depths);
+    const double scale2 = 1 / left.sum();
+    depths *= std::sqrt(scale2);
+    refine(depths, {scale2 * left.of12, scale2 * left.of13, scale2 * left.of23});
     if (!(depths.minCoeff() > 0)) return;
     for (int i = 0; i < count_; ++i)
       if ((depths_[i] - depths).squaredNorm() < kSame * kSame * depths.squaredNorm()) return;
@@ -175,11 +190,11 @@ class P3p {
     depths_[count_++] = depths;
   }
 
-  // Newton's method for (1). At a double solution the start is exact already, and a step only amplifies its rounding errors.
-  void refine(Vector3d& l) const {
+  // Newton's method for (1), from depths of these left sides. At a double solution the start is exact already, and a step only
+  // amplifies its rounding errors.
+  void refine(Vector3d& l, Pairs left) const {
     const Pairs& c = triangle_.cosine;
     for (int iteration = 0; iteration < 3; ++iteration) {
-      const Pairs left = leftSides(c, l);
       const double r1 = (left.of12 - triangle_.squaredDistance.of12) / 2, r2 = (left.of13 - triangle_.squaredDistance.of13) / 2,
                    r3 = (left.of23 - triangle_.squaredDistance.of23) / 2;
       const double residual = std::max({std::abs(r1), std::abs(r2), std::abs(r3)}), size2 = l.squaredNorm();
@@ -192,6 +207,7 @@ class P3p {
       if (!(step2 < 1e-2 * size2) || (step2 > 1e-8 * size2 && residual < 1e-12 * size2)) return;
       l -= step;
       if (step2 < 1e-18 * size2) return;
+      left = leftSides(c, l);
     }
   }
 
@@ -201,7 +217,7 @@ class P3p {
   const Triangle& triangle_;
   const TrianglePose& pose_;
   FocalPose* solutions_;
-  Vector3d depths_[8];
+  Vector3d depths_[4];
   int count_ = 0;
 };
 

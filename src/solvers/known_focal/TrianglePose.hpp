@@ -24,14 +24,18 @@ class TrianglePose {
   bool set(const Eigen::Vector3d& depths, FocalPose& pose) const;
 
  private:
-  bool isMet(const Eigen::Matrix3d& toCamera, const Eigen::Vector3d& first) const;
+  void setDuals();
+  // From the depths' differences a, b of the other points to the first.
+  bool setRotation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Eigen::Matrix3d& rotation) const;
+  bool isMet(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& first) const;
 
   const PointMatch* points_;
   Eigen::Vector3d bearings_[3];
   double squaredSides_[3];  // of the pairs 01, 02, 12
   double unit_;
   Eigen::Vector3d fromFirst_[3];  // in that unit; [0] is zero
-  Eigen::Matrix3d frame_;         // orthonormal columns: along the first side, in the plane, normal to it
+  Eigen::Matrix3d duals_;         // columns: the basis dual to both sides from the first point and their vector product
+  bool isThin_;                   // so that rounding errors show in the duals
   double imageScale_;             // the largest image coordinate
 };
 
