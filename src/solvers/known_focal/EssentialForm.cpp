@@ -38,9 +38,9 @@ struct ProductTable {
 };
 constexpr ProductTable kProducts;
 
-// The entry (i, j) of E as a linear form: entries[i][variable][j], padded.
+// The entry (i, j) of E as a linear form: e[i][variable][j], padded, and ofVariables[i][j][variable].
 struct Entries {
-  Pair e[3][kVariables][2];
+  Pair e[3][kVariables][2], ofVariables[3][3][kVariables / 2];
 
   explicit Entries(const PaddedMatrix* basis) {
     for (int i = 0; i < 3; ++i)
@@ -48,6 +48,8 @@ struct Entries {
         e[i][n][0] = Pair{basis[n][3 * i], basis[n][3 * i + 1]};
         e[i][n][1] = Pair{basis[n][3 * i + 2], 0};
       }
+    for (int i = 0; i < 9; ++i)
+      for (int n = 0; n < kVariables; n += 2) ofVariables[i / 3][i % 3][n / 2] = Pair{basis[n][i], basis[n + 1][i]};
   }
   double at(int i, int n, int j) const { return e[i][n][j / 2][j % 2]; }
 };
@@ -63,11 +65,15 @@ struct Quadratic {
 // (E E^T)_ij
 Quadratic rowProduct(const Entries& E, int i, int j) {
   Quadratic result;
-  for (int a = 0; a < kVariables; ++a)
-    for (int b = 0; b < kVariables; ++b) {
-      const Pair sum = E.e[i][a][0] * E.e[j][b][0] + E.e[i][a][1] * E.e[j][b][1];
-      result.q[kQuadratic[a][b]] += sum[0] + sum[1];
+  for (int a = 0; a < kVariables; ++a) {
+    Pair sums[2] = {{0, 0}, {0, 0}};  // for the four variables b
+    for (int k = 0; k < 3; ++k) {
+      const double factor = E.at(i, a, k);
+      sums[0] += factor * E.ofVariables[j][k][0];
+      sums[1] += factor * E.ofVariables[j][k][1];
     }
+    for (int b = 0; b < kVariables; ++b) result.q[kQuadratic[a][b]] += sums[b / 2][b % 2];
+  }
   return result;
 }
 
@@ -95,22 +101,12 @@ class Cubics {
     addDeterminant(E);
   }
 
-  // Gauss elimination with row pivots: the first four columns forward only, then the next six completely. Returns the least pivot.
+  // Gauss elimination with row pivots: the first four columns forward only, then the next six completely, in the last six rows. Returns
+  // the least pivot.
   double eliminate() {
-    double least = 1;
-    for (int column = 0; column < kEliminated && least > 0; ++column) {
-      int pivot = column;
-      for (int r = column + 1; r < kEquations; ++r)
-        if (std::abs(at(r, column)) > std::abs(at(pivot, column))) pivot = r;
-      if (pivot != column) std::swap_ranges(row_[pivot], row_[pivot] + kPairs, row_[column]);
-      const double value = at(column, column);
-      least = std::min(least, std::abs(value));
-      if (!(least > 0)) return 0;
-      for (Pair& pair : row_[column]) pair /= value;
-      for (int r = column < kForwardOnly ? column + 1 : kForwardOnly; r < kEquations; ++r)
-        if (r != column) subtract(r, column);
-    }
-    return least;
+    leastPivot_ = 1;
+    eliminateFrom<0>();
+    return leastPivot_;
   }
 
   double at(int r, int column) const { return row_[r][column / 2][column % 2]; }
@@ -153,13 +149,36 @@ class Cubics {
     for (int p = 0; p < kPairs; ++p) row_[kEquations - 1][p] = Pair{sums[2 * p], sums[2 * p + 1]};
   }
 
-  // The part of the row that is still needed.
-  void subtract(int r, int column) {
-    const double factor = at(r, column);
-    for (int p = column / 2; p < kPairs; ++p) row_[r][p] -= factor * row_[column][p];
+  template <int Column>
+  void eliminateFrom() {
+    int pivot = Column;
+    for (int r = Column + 1; r < kEquations; ++r)
+      if (std::abs(at(r, Column)) > std::abs(at(pivot, Column))) pivot = r;
+    const double value = at(pivot, Column);
+    leastPivot_ = std::min(leastPivot_, std::abs(value));
+    if (!(leastPivot_ > 0)) {
+      leastPivot_ = 0;
+      return;
+    }
+    // The part of the row that is still needed.
+    constexpr int kFirst = Column / 2;
+    const double inverse = 1 / value;
+    Pair normalized[kPairs];
+    for (int p = kFirst; p < kPairs; ++p) {
+      normalized[p] = inverse * row_[pivot][p];
+      row_[pivot][p] = row_[Column][p];
+    }
+    for (int r = Column < kForwardOnly ? Column + 1 : kForwardOnly; r < kEquations; ++r) {
+      if (r == Column) continue;
+      const double factor = at(r, Column);
+      for (int p = kFirst; p < kPairs; ++p) row_[r][p] -= factor * normalized[p];
+    }
+    std::copy(normalized + kFirst, normalized + kPairs, row_[Column] + kFirst);
+    if constexpr (Column + 1 < kEliminated) eliminateFrom<Column + 1>();
   }
 
   Pair row_[kEquations][kPairs];
+  double leastPivot_;
 };
 
 }  // namespace

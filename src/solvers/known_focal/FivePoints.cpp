@@ -1,7 +1,6 @@
 #include "solvers/known_focal/FivePoints.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -23,10 +22,9 @@ using Roots = math::BinaryFormRoots<EssentialForm::kDegree>;
 // With little parallax the matrices nearly contain the plane {[t]x R} of a pure rotation R, which every line z = w = 0 of the basis
 // meets, and the elimination loses digits. Where a pivot is smaller than this, other bases of the same matrices are tried too.
 constexpr double kWeakPivot = 1e-3;
-constexpr int kBases = 3;
+constexpr int kOtherBases = 2;
 // Orthogonal matrices: each row makes one matrix of the basis.
-constexpr double kBasisChange[kBases][4][4] = {
-    {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
+constexpr double kBasisChange[kOtherBases][4][4] = {
     {{0.5, 0.5, 0.5, 0.5}, {0.5, -0.5, 0.5, -0.5}, {0.5, 0.5, -0.5, -0.5}, {0.5, -0.5, -0.5, 0.5}},
     {{0.36, -0.48, -0.64, -0.48}, {0.48, 0.36, -0.48, 0.64}, {0.64, 0.48, 0.36, -0.48}, {0.48, -0.64, 0.48, 0.36}}};
 constexpr double kSame = 1e-7;  // motions that differ by less are one
@@ -67,6 +65,50 @@ Vector3d nullVector(const Matrix3d& cofactors) {
   return cofactors.row(largest).normalized();
 }
 
+// Five linear equations in five unknowns, a row each with its right side.
+class FiveEquations {
+ public:
+  void set(int i, const Vector3d& first, double fourth, double fifth, double right) {
+    row_[i][0] = Pair{first[0], first[1]};
+    row_[i][1] = Pair{first[2], fourth};
+    row_[i][2] = Pair{fifth, right};
+  }
+
+  // Gauss elimination with row pivots. Not finite if the equations are dependent.
+  void solve(double (&x)[5]) {
+    eliminateFrom<0>();
+    for (int i = 4; i >= 0; --i) {
+      double sum = at(i, 5);
+      for (int k = i + 1; k < 5; ++k) sum -= at(i, k) * x[k];
+      x[i] = sum;
+    }
+  }
+
+ private:
+  double at(int r, int column) const { return row_[r][column / 2][column % 2]; }
+
+  // Afterwards the diagonal is 1, and what is below it no longer counts.
+  template <int Column>
+  void eliminateFrom() {
+    int pivot = Column;
+    for (int r = Column + 1; r < 5; ++r)
+      if (std::abs(at(r, Column)) > std::abs(at(pivot, Column))) pivot = r;
+    const double inverse = 1 / at(pivot, Column);
+    for (int p = Column / 2; p < 3; ++p) {
+      const Pair normalized = inverse * row_[pivot][p];
+      row_[pivot][p] = row_[Column][p];
+      row_[Column][p] = normalized;
+    }
+    for (int r = Column + 1; r < 5; ++r) {
+      const double factor = at(r, Column);
+      for (int p = Column / 2; p < 3; ++p) row_[r][p] -= factor * row_[Column][p];
+    }
+    if constexpr (Column < 4) eliminateFrom<Column + 1>();
+  }
+
+  Pair row_[5][3];
+};
+
 void orthonormalize(Matrix3d& R) {
   Vector3d first = R.row(0), second = R.row(1);
   first.normalize();
@@ -86,28 +128,33 @@ FivePoints::FivePoints(const RayMatch* rays) : rays_(rays), imageScale_(0) {
     rows[i] = outerProduct({v[0], v[1], v[2]}, {q[0], q[1], q[2]});
   }
   if (!nullSpace(rows, basis)) return;
+  if (addMotionsOf(basis) > kWeakPivot) return;
   for (const auto& change : kBasisChange) {
-    EssentialForm form;
     changeBasis(basis, change, changed);
-    if (form.set(changed)) {
-      math::Direction roots[Roots::kMaxRoots];
-      const int count = Roots::findSampled(
-          [&](const double* c, const double* s, double* p) {
-            for (int j = 0; j < Roots::kPadded; j += 2)
-              math::store(p + j, form.value(math::load<Pair>(c + j), math::load<Pair>(s + j)));
-          },
-          roots);
-      for (int i = 0; i < count; ++i) {
-        double coordinates[4];
-        form.coordinates(roots[i].c, roots[i].s, coordinates);
-        addMotionsOf(combination(changed, coordinates));
-      }
-    }
-    if (form.leastPivot() > kWeakPivot) return;
+    if (addMotionsOf(changed) > kWeakPivot) return;
   }
 }
 
-// R = cof(E) - E [b]x with E b = 0 and |E|^2 = 2, t = R b; the other rotation is (2 t t^T - I) R = 2 t b^T - R.
+double FivePoints::addMotionsOf(const PaddedMatrix (&basis)[4]) {
+  EssentialForm form;
+  if (!form.set(basis)) return 0;
+  math::Direction roots[Roots::kMaxRoots];
+  const int count = Roots::findSampled(
+      [&](const double* c, const double* s, double* p) {
+        for (int j = 0; j < Roots::kPadded; j += 2)
+          math::store(p + j, form.value(math::load<Pair>(c + j), math::load<Pair>(s + j)));
+      },
+      roots);
+  for (int i = 0; i < count; ++i) {
+    double coordinates[4];
+    form.coordinates(roots[i].c, roots[i].s, coordinates);
+    addMotionsOf(combination(basis, coordinates));
+  }
+  return form.leastPivot();
+}
+
+// R = cof(E) - E [b]x with E b = 0 and |E|^2 = 2, t = R b; the other rotation is (2 t t^T - I) R = 2 t b^T - R. The first ray tells
+// which of them can have it in front.
 void FivePoints::addMotionsOf(const Matrix3d& matrix) {
   const double norm = matrix.norm();
   if (!(norm > 0) || !std::isfinite(norm)) return;
@@ -116,8 +163,12 @@ void FivePoints::addMotionsOf(const Matrix3d& matrix) {
   const Vector3d b = nullVector(R);
   for (int i = 0; i < 3; ++i) R.row(i) -= Vector3d(E.row(i)).cross(b);
   const Vector3d t = R * b;
-  addInFront(R, t);
-  addInFront(2 * t * b.transpose() - R, t);
+  const Vector3d p(rays_[0].u, rays_[0].v, 1), a = R * rays_[0].direction, pt = p.cross(t), at = a.cross(t), n = p.cross(a);
+  // n.pt and n.at (meetingSide) of R, and of the other rotation, for which a is 2 (b.q) t - a.
+  const double npt = n.dot(pt), nat = n.dot(at), twice = 2 * b.dot(rays_[0].direction);
+  const double otherNpt = twice * pt.squaredNorm() - npt, otherNat = nat - twice * pt.dot(at);
+  if ((npt > 0) == (nat > 0)) addInFront(R, t);
+  if ((otherNpt > 0) == (otherNat > 0)) addInFront(2 * t * b.transpose() - R, t);
 }
 
 // Adds the motion by t or by -t, if all rays meet in front for one of them.
@@ -140,8 +191,10 @@ void FivePoints::add(Motion motion) {
 }
 
 bool FivePoints::areInFront(const Motion& motion) const {
-  return std::all_of(rays_, rays_ + kRays,
-                     [&](const RayMatch& ray) { return isMetInFront(ray, motion.t, motion.R * ray.direction, imageScale_); });
+  return std::all_of(rays_, rays_ + kRays, [&](const RayMatch& ray) {
+    const Vector3d a = motion.R * ray.direction;
+    return isOnLine(ray, motion.t, a, imageScale_) && meetInFront(ray.u, ray.v, 1, a, motion.t);
+  });
 }
 
 // Newton's method for a turn of R and two tangents of t.
@@ -149,24 +202,23 @@ bool FivePoints::refine(Motion& motion) const {
   constexpr int kSteps = 20;
   for (int step = 0; step < kSteps; ++step) {
     const Vector3d u1 = motion.t.unitOrthogonal(), u2 = motion.t.cross(u1);
-    Eigen::Matrix<double, kRays, kRays> J;
-    Eigen::Matrix<double, kRays, 1> F;
+    FiveEquations equations;
     for (int i = 0; i < kRays; ++i) {
       const Vector3d a = motion.R * rays_[i].direction, vt = bearings_[i].cross(motion.t), av = a.cross(bearings_[i]);
-      J.row(i) << a.cross(vt).transpose(), av.dot(u1), av.dot(u2);
-      F[i] = vt.dot(a);
+      equations.set(i, a.cross(vt), av.dot(u1), av.dot(u2), -vt.dot(a));
     }
-    const Eigen::Matrix<double, kRays, 1> change = -J.partialPivLu().solve(F);
-    const double size = change.norm();
-    if (!(size < 1)) return false;
+    double change[kRays];
+    equations.solve(change);
+    const Vector3d turn(change[0], change[1], change[2]);
+    const double size2 = turn.squaredNorm() + change[3] * change[3] + change[4] * change[4];
+    if (!(size2 < 1)) return false;
     // Cayley's rotation by the vector: a + 2 (w x a + w x (w x a)) / (1 + w.w), w half of it.
-    const Vector3d w = change.head<3>() / 2;
-    const Matrix3d W = crossMatrix(w);
-    motion.R += 2 / (1 + w.squaredNorm()) * (W * motion.R + W * (W * motion.R));
+    const Vector3d w = turn / 2;
+    const Matrix3d W = crossMatrix(w), WR = W * motion.R;
+    motion.R += 2 / (1 + w.squaredNorm()) * (WR + W * WR);
     motion.t = (motion.t + change[3] * u1 + change[4] * u2).normalized();
-    if (size < 1e-8) break;
+    if (size2 < 1e-16) break;
   }
-  orthonormalize(motion.R);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "solvers/MinimalSolver.hpp"
+#include "solvers/NullSpace.hpp"
 
 namespace hybridgv {
 namespace solvers {
@@ -28,6 +29,8 @@ class FivePoints {
   const Motion* end() const { return motions_ + count_; }
 
  private:
+  // Of the essential matrices in the space of the basis; the smallest pivot of the elimination.
+  double addMotionsOf(const PaddedMatrix (&basis)[4]);
   void addMotionsOf(const Eigen::Matrix3d& E);
   void addInFront(const Eigen::Matrix3d& R, const Eigen::Vector3d& t);
   void add(Motion motion);  // refined
