@@ -443,7 +443,10 @@ FinalPose HybridSearch::finish(bool optimize) {
     findThresholds(best_);
   }
   FinalPose result = optimize ? polishBest() : optimizer_.finish(optimizer_.keep(best_.pose));
-  if (part_) result = fitToAll(result.pose, optimize);
+  if (part_)
+    result = fitToAll(result.pose, optimize);
+  else
+    optimizer_.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;
   scorer_.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   best_.evaluation = scorer_.evaluate(best_.pose);
@@ -457,6 +460,7 @@ FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
   const LocalOptimizer optimizer = makeOptimizer(scorer, chance);
   FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
+  optimizer.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;
   scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});
   judgeAll(scorer);

@@ -186,6 +186,20 @@ ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose&
   return derivatives(problem, pose).information;
 }
 
+ParameterPair gradientByImageShift(const LeastSquaresProblem& problem, const QueryPose& pose) {
+  const PlainPose plain = toPlain(pose);
+  ImageShiftSums sums;
+  if (problem.kinds.points) problem.kernels->addPointShifts(problem.points, plain, problem.pointLoss, sums);
+  if (problem.kinds.rays) problem.kernels->addRayShifts(problem.rays, plain, problem.rayLoss, sums);
+  ParameterPair result(problem.estimated.parameters(), 2);
+  for (int row = 0; row < problem.estimated.parameters(); ++row) {
+    const int from = kernelParameter(problem.estimated, row);
+    result(row, 0) = sums.alongU[from];
+    result(row, 1) = sums.alongV[from];
+  }
+  return result;
+}
+
 ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated) {
   const int size = estimated.parameters();
   ParameterMatrix result(size, size);

@@ -73,6 +73,9 @@ Derivatives derivatives(const LeastSquaresProblem& problem, const QueryPose& pos
 // The second one alone.
 ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose& pose);
 
+// How the gradient changes with a shift of all image points along u and along v [1/px], the weights being kept.
+ParameterPair gradientByImageShift(const LeastSquaresProblem& problem, const QueryPose& pose);
+
 // Of the kernels' sums, what belongs to the parameters that are estimated.
 ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated);
 ParameterVector estimatedGradient(const NormalEquations& sums, Intrinsics estimated);

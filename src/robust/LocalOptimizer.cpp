@@ -373,15 +373,25 @@ Optimum LocalOptimizer::polish(const QueryPose& start) const {
 }
 
 FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
-  FinalPose result;
-  result.pose = optimum.pose;
-  result.noise = optimum.noise;
-  result.refusedRays = optimum.treatment.refused();
+  FinalPose result{optimum};
   const PaddedValues narrowing = optimum.treatment.narrowing();
   const LeastSquaresProblem inliers = likelierInliers(optimum.noise, optimum.kinds);
   findCovariance(narrowed(inliers, narrowing), result);
   leaveOutLevers(inliers, optimum.treatment, result);
   return result;
+}
+
+// All image points are shifted by the error of the principal point, and the pose follows: by -C dg for a change dg of the gradient.
+void LocalOptimizer::allowForPrincipalPoint(double deviation, FinalPose& result) const {
+  if (!result.isRegular || !(deviation > 0)) return;
+  const PaddedValues narrowing = result.treatment.narrowing();
+  const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, result.kinds), narrowing);
+  ParameterMatrix byNoise;
+  result.isRegular = invertInformation(information(inliers, result.pose), byNoise);
+  if (!result.isRegular) return;
+  const ParameterPair changes = deviation * (byNoise * gradientByImageShift(inliers, result.pose));
+  result.covariance += changes * changes.transpose();
+  result.isRegular = result.covariance.allFinite();
 }
 
 void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const {

@@ -23,14 +23,12 @@ struct Optimum {
   Noise noise;
 };
 
-struct FinalPose {
-  QueryPose pose;
-  Noise noise;
-  bool isRegular = false;                // the inliers fix all parameters
-  ParameterMatrix covariance;            // for this noise, and for errors that groups of inliers share (Jackknife.hpp)
-  double effectiveParameters = 0;        // tr(H V), H the information for independent errors, V the covariance
-  double deviationWithoutLevers = 0;     // of log f, if rays with large leverages are left out
-  std::vector<std::size_t> refusedRays;  // are no inliers, whatever their errors
+// The refused rays of its treatment are no inliers, whatever their errors.
+struct FinalPose : Optimum {
+  bool isRegular = false;             // the inliers fix all parameters
+  ParameterMatrix covariance = {};    // for this noise, and for errors that groups of inliers share (Jackknife.hpp)
+  double effectiveParameters = 0;     // tr(H V), H the information for independent errors, V the covariance
+  double deviationWithoutLevers = 0;  // of log f, if rays with large leverages are left out
 };
 
 class LocalOptimizer {
@@ -52,6 +50,8 @@ class LocalOptimizer {
   Optimum keep(const QueryPose& pose) const;
   // With its covariance.
   FinalPose finish(const Optimum& optimum) const;
+  // Enlarges the covariance by what comes from the principal point, both coordinates of which have this standard deviation [px].
+  void allowForPrincipalPoint(double deviation, FinalPose& result) const;
   // Whether the deviation of the focal length is so small that no other optimum can be near.
   bool focalLengthIsSure(const QueryPose& pose) const;
   // Whether the likelihood falls clearly where the focal length is half or twice as large.

@@ -18,6 +18,9 @@ using ParameterMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Ei
 
 using ParameterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, correspondences::kMostParameters, 1>;
 
+// How the parameters change with two other quantities.
+using ParameterPair = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, correspondences::kMostParameters, 2>;
+
 // As the public results have it: over the parameters of a FocalPose.
 using FocalPoseMatrix = std::array<double, correspondences::kFocalPoseParameters * correspondences::kFocalPoseParameters>;
 

@@ -104,7 +104,7 @@ void setPose(robust::HybridSearch& search, const HybridRansacOptions& options, H
   result.score = search.score();
   result.solver = search.best().solver;
   setMasks(search, result);
-  takeOut(final.refusedRays, search.data().rayIndices, result);
+  takeOut(final.treatment.refused(), search.data().rayIndices, result);
   setLens(search, final, result);
   if (final.isRegular) setCovariance(final.covariance, normalization.unit, search.estimated(), result);
   result.failureReason = search.verdict(final);

@@ -72,6 +72,8 @@ void HybridRansacOptions::check() const {
   require(maxFocalLength > minFocalLength, "maxFocalLength", maxFocalLength,
           ("greater than minFocalLength (" + detail::format(minFocalLength) + ")").c_str());
   require(positiveFinite(maxFocalLengthDeviation), "maxFocalLengthDeviation", maxFocalLengthDeviation, "positive and finite");
+  require(principalPointDeviationPx >= 0 && std::isfinite(principalPointDeviationPx), "principalPointDeviationPx",
+          principalPointDeviationPx, "finite and not negative");
   requireListed({QueryCamera::Pinhole, QueryCamera::Radial}, "queryCamera", queryCamera);
   require(imageRadiusPx >= 0 && std::isfinite(imageRadiusPx), "imageRadiusPx", imageRadiusPx, "finite and not negative");
   require(positiveFinite(distortionScale), "distortionScale", distortionScale, "positive and finite");

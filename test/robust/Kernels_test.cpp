@@ -352,6 +352,116 @@ TEST(Kernels, APointsInformationIsTheSquareOfTheCentralDifferencesOfItsProjectio
     }
 }
 
+// The arrays of image points that are all moved.
+struct MovedImage {
+  MovedImage(const Data& data, double du, double dv) {
+    const auto moved = [](const double* column, std::size_t size, double step) {
+      std::vector<double> result(column, column + correspondences::padded(size));
+      for (double& value : result) value += step;
+      return result;
+    };
+    points = data.arrays.pointArrays();
+    rays = data.arrays.rayArrays();
+    columns = {moved(points.u, points.size, du), moved(points.v, points.size, dv), moved(rays.u, rays.size, du),
+               moved(rays.v, rays.size, dv)};
+    points.u = columns[0].data();
+    points.v = columns[1].data();
+    rays.u = columns[2].data();
+    rays.v = columns[3].data();
+  }
+  PointArrays points;
+  RayArrays rays;
+  std::vector<std::vector<double>> columns;
+};
+
+// J^T d for one ray, J and d by central differences.
+TEST(Kernels, OneRaysSumsForAMovedImageAreThoseOfTheCentralDifferencesAtEveryLevel) {
+  test::Random random(test::testSeed(), 22);
+  int compared = 0;
+  for (const Model& model : models())
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      const Data data(random, 1, 4);
+      const double distortion = model.distortions[static_cast<std::size_t>(repeat) % model.distortions.size()];
+      const QueryPose pose =
+          withDistortion(data.normalized(test::perturbed(random, data.scene.truth, 0.02, 0.2, 0.05)), distortion);
+      const auto error = [&](const QueryPose& at, double du, double dv) {
+        double squared[correspondences::kPadding];
+        kernels(model.model).squaredRayErrors(MovedImage(data, du, dv).rays, toPlain(at), squared);
+        return std::sqrt(squared[0]);
+      };
+      if (!(error(pose, 0, 0) > 1 && error(pose, 0, 0) < 1e6)) continue;  // where the sign changes there is no derivative
+      const double h = 1e-6, step = 1e-4;
+      const double byU = (error(pose, step, 0) - error(pose, -step, 0)) / (2 * step);
+      const double byV = (error(pose, 0, step) - error(pose, 0, -step)) / (2 * step);
+      Eigen::VectorXd derivative(parametersOf(model.model));
+      for (int i = 0; i < derivative.size(); ++i)
+        derivative[i] = (error(moved(pose, i, h), 0, 0) - error(moved(pose, i, -h), 0, 0)) / (2 * h);
+      if (!derivative.allFinite() || !std::isfinite(byU) || !std::isfinite(byV)) continue;
+      ++compared;
+      for (const SimdLevel level : levels()) {
+        ImageShiftSums at;
+        kernels(level, model.model).addRayShifts(data.arrays.rayArrays(), toPlain(pose), {}, at);
+        const double tolerance = 1e-5 * derivative.norm();
+        for (int row = 0; row < derivative.size(); ++row) {
+          EXPECT_NEAR(unitOf(row) * at.alongU[row], derivative[row] * byU, tolerance);
+          EXPECT_NEAR(unitOf(row) * at.alongV[row], derivative[row] * byV, tolerance);
+        }
+      }
+    }
+  EXPECT_GT(compared, 50);
+}
+
+// Points' errors are linear in their places in the image: the gradient changes by the sums times the shift, as long as the weights stay.
+TEST(Kernels, PointsSumsForAMovedImageAreTheDifferencesOfTheGradientAtEveryLevel) {
+  test::Random random(test::testSeed(), 23);
+  const Data data(random, 4, 63);
+  constexpr double kShift = 3;
+  for (const Model& model : models())
+    for (const double distortion : model.distortions)
+      for (const SimdLevel level : levels()) {
+        const Kernels& tested = kernels(level, model.model);
+        const PlainPose pose = data.plain(withDistortion(data.poses[0], distortion));
+        ImageShiftSums at;
+        tested.addPointShifts(data.arrays.pointArrays(), pose, {}, at);
+        NormalEquations still, alongU, alongV;
+        tested.addPoints(data.arrays.pointArrays(), pose, {}, still);
+        tested.addPoints(MovedImage(data, kShift, 0).points, pose, {}, alongU);
+        tested.addPoints(MovedImage(data, 0, kShift).points, pose, {}, alongV);
+        for (int row = 0; row < parametersOf(model.model); ++row) {
+          const double tolerance = 1e-9 * (1 + std::abs(still.gradient[row]));
+          EXPECT_NEAR(at.alongU[row] * kShift, alongU.gradient[row] - still.gradient[row], tolerance);
+          EXPECT_NEAR(at.alongV[row] * kShift, alongV.gradient[row] - still.gradient[row], tolerance);
+        }
+      }
+}
+
+TEST(Kernels, SumsForAMovedImageHaveTheWeightsOfTheLossAtEveryLevel) {
+  test::Random random(test::testSeed(), 24);
+  const Data data(random, 61, 63);
+  const PlainPose pose = data.plain(data.poses[0]);
+  const KindLoss spec{Loss::Truncated, 3, 0.5, 1};
+  std::vector<double> points(64), rays(64);
+  kernels().squaredPointErrors(data.arrays.pointArrays(), pose, points.data());
+  kernels().squaredRayErrors(data.arrays.rayArrays(), pose, rays.data());
+  ImageShiftSums none;
+  const KindLoss narrow{Loss::Truncated, 1e-9, 0.5, 1};
+  kernels().addPointShifts(data.arrays.pointArrays(), pose, narrow, none);
+  kernels().addRayShifts(data.arrays.rayArrays(), pose, narrow, none);
+  for (int row = 0; row < kMostParameters; ++row) EXPECT_EQ(none.alongU[row], 0);
+  ImageShiftSums expected;
+  kernels(SimdLevel::Baseline).addPointShifts(data.arrays.pointArrays(), pose, spec, expected);
+  kernels(SimdLevel::Baseline).addRayShifts(data.arrays.rayArrays(), pose, spec, expected);
+  for (const SimdLevel level : levels()) {
+    ImageShiftSums actual;
+    kernels(level).addPointShifts(data.arrays.pointArrays(), pose, spec, actual);
+    kernels(level).addRayShifts(data.arrays.rayArrays(), pose, spec, actual);
+    for (int row = 0; row < correspondences::kFocalPoseParameters; ++row) {
+      EXPECT_NEAR(actual.alongU[row], expected.alongU[row], 1e-9 * (1 + std::abs(expected.alongU[row])));
+      EXPECT_NEAR(actual.alongV[row], expected.alongV[row], 1e-9 * (1 + std::abs(expected.alongV[row])));
+    }
+  }
+}
+
 TEST(Kernels, NormalEquationsAreEqualAtAllLevels) {
   test::Random random(test::testSeed(), 16);
   const Data data(random, 61, 63);

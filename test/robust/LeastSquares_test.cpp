@@ -202,5 +202,34 @@ TEST(LeastSquares, ThePriorDrawsTheDistortionTowardsZeroAndTheBoundsHold) {
   EXPECT_EQ(minimize(problem, start, options).pose.distortion, options.minDistortion);
 }
 
+// Of exact data, where the errors' second derivatives do not matter.
+TEST(LeastSquares, AMovedImageMovesTheMinimumAgainstTheChangeOfTheGradient) {
+  constexpr double kShift = 1e-3;
+  test::Random random(test::testSeed(), 147);
+  for (const Intrinsics estimated : {kUnknownFocalLength, kKnownFocalLength, kUnknownLens})
+    for (int i = 0; i < 5; ++i) {
+      const WideData data(random, estimated.radial ? -4e-7 : 0, 0);
+      const CorrespondenceArrays still = data.arrays();
+      const QueryPose start = still.normalization().apply(data.scene.truth);
+      const LeastSquaresProblem problem = makeProblem(still, {}, {}, estimated);
+      const LeastSquaresResult before = minimize(problem, start);
+      ParameterMatrix covariance;
+      ASSERT_TRUE(invertInformation(before.information, covariance));
+      const ParameterPair expected = -kShift * (covariance * gradientByImageShift(problem, before.pose));
+      for (int axis = 0; axis < 2; ++axis) {
+        WideData moved = data;
+        for (Eigen::Vector3d& point : moved.scene.image2d2d) point[axis] += kShift;
+        for (Eigen::Vector3d& point : moved.scene.image2d3d) point[axis] += kShift;
+        const CorrespondenceArrays arrays = moved.arrays();
+        const LeastSquaresResult after = minimize(makeProblem(arrays, {}, {}, estimated), before.pose);
+        const ParameterVector change = changeOf(before.pose, after.pose, estimated);
+        // In units of the parameters' deviations for errors of one pixel.
+        const Eigen::VectorXd unit = covariance.diagonal().cwiseSqrt();
+        const Eigen::VectorXd found = change.cwiseQuotient(unit), wanted = expected.col(axis).cwiseQuotient(unit);
+        EXPECT_LT((found - wanted).norm(), 1e-3 * wanted.norm()) << "axis " << axis;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace hybridgv

@@ -74,7 +74,7 @@ TEST(LocalOptimizer, KeptPoseStaysAsItIsAndHasTheNoiseOfItsErrors) {
   const FinalPose kept = data.optimizer.finish(data.optimizer.keep(data.truth));
   EXPECT_EQ(kept.pose.position, data.truth.position);
   EXPECT_EQ(kept.pose.focalLength, data.truth.focalLength);
-  EXPECT_TRUE(kept.refusedRays.empty());
+  EXPECT_TRUE(kept.treatment.refused().empty());
   EXPECT_NEAR(kept.noise.points.deviation, kNoise, 0.3);
 }
 

@@ -33,10 +33,10 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
   /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d, and from what happens to
   /// the pose if the rays of one rig camera, or one of 64 groups of points, are left out (jackknife), so that errors of the rig show.
-  /// Errors that all correspondences share, such as those of the principal point, do not. All infinite if the inliers do not fix the
-  /// pose.
+  /// Errors that all correspondences share do not; that of the principal point is allowed for if options.principalPointDeviationPx
+  /// states how large it may be. All infinite if the inliers do not fix the pose.
   std::array<double, 49> covariance{};
-  double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px]
+  double focalLengthStandardDeviation = std::numeric_limits<double>::infinity();  ///< [px] by the same covariance
 
   /// Another pose that correspondences agree with which are no inliers of `pose`, more of them than chance gives: as where a facade
   /// repeats itself, or the map has the same thing twice. Which of the two is right, correspondences cannot tell. It is looked for

@@ -71,6 +71,11 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// Of log f: 0.1 for what cameras store, 0.3 for a guess.
   double focalLengthPriorLogDeviation = 0.1;
 
+  /// [px] Standard deviation of each coordinate of the principal point from which image points are measured: 0 where it is known, about
+  /// 0.5 % of the image's longer side where the image's centre stands for it. The pose does not depend on it, but its covariance does. An
+  /// error of the principal point turns and moves the pose and leaves no trace in the inliers' errors.
+  double principalPointDeviationPx = 0;
+
   /// A success needs a standard deviation of the focal length below this share of it, also without the rays that have most
   /// influence on it.
   double maxFocalLengthDeviation = 0.3;

@@ -71,6 +71,23 @@ HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const 
   derivatives[6] = ray.image.z * l3 - ratio * varianceByFocal;
 }
 
+// The same by the place in the query's image.
+struct ImageDerivatives {
+  Doubles byU, byV;
+};
+
+// Half the derivative of the part of G that is measured in the map's image, by the viewing direction w: h (t x m).
+HYBRIDGV_INLINE Vec3<Doubles> mapByDirection(const Epipolar& ray) {
+  return ray.squaredPixel * cross(ray.t, ray.n - ray.alongNormal * ray.imageNormal);
+}
+
+//   dC = l1 du + l2 dv,   dG/2 = h (t x m) . (r1 du + r2 dv)
+HYBRIDGV_INLINE ImageDerivatives differentiateByImage(const Epipolar& ray, Doubles variance, const Pose& pose) {
+  const Vec3<Doubles> inMap = mapByDirection(ray);
+  const Doubles ratio = ray.constraint / variance;
+  return {ray.l1 - ratio * dot(inMap, pose.r1), ray.l2 - ratio * dot(inMap, pose.r2)};
+}
+
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust
 }  // namespace hybridgv

@@ -54,6 +54,11 @@ struct NormalEquations {
   double hessian[kMostParameters][kMostParameters] = {};  // the upper triangle
 };
 
+// The sums J^T W d, d the derivatives of the errors by a shift of all image points along u and along v.
+struct ImageShiftSums {
+  double alongU[kMostParameters] = {}, alongV[kMostParameters] = {};
+};
+
 // One instruction set's versions. Ranges [begin, end) begin at a multiple of correspondences::kPadding and end at one or at the arrays' size.
 struct Kernels {
   // Squared errors; infinite as reprojectionError and sampsonError are. `errors` has room for the padding.
@@ -64,6 +69,9 @@ struct Kernels {
   // Add to the sums. A point that is not in front of the query costs rho(infinity), as does a ray but for Loss::Quadratic.
   void (*addPoints)(const PointArrays&, const PlainPose&, const KindLoss&, NormalEquations&);
   void (*addRays)(const RayArrays&, const PlainPose&, const KindLoss&, NormalEquations&);
+  // The same weights and derivatives with what the errors change by, for the errors.
+  void (*addPointShifts)(const PointArrays&, const PlainPose&, const KindLoss&, ImageShiftSums&);
+  void (*addRayShifts)(const RayArrays&, const PlainPose&, const KindLoss&, ImageShiftSums&);
   // W J C J^T of every ray, C a symmetric matrix of kMostParameters rows. `leverages` has room for the padding.
   void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
 };

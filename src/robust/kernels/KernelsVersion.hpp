@@ -14,8 +14,9 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 
 template <class Camera>
 constexpr Kernels makeKernels() {
-  return {&squaredPointErrors<Camera>, &squaredRayErrors<Camera>, &scorePoints<Camera>, &scoreRays<Camera>,
-          &addPoints<Camera>,          &addRays<Camera>,          &rayLeverages<Camera>};
+  return {&squaredPointErrors<Camera>, &squaredRayErrors<Camera>, &scorePoints<Camera>,
+          &scoreRays<Camera>,          &addPoints<Camera>,        &addRays<Camera>,
+          &addPointShifts<Camera>,     &addRayShifts<Camera>,     &rayLeverages<Camera>};
 }
 
 extern const Kernels kPinholeKernels, kRadialKernels;

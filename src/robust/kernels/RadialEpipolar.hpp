@@ -57,6 +57,15 @@ HYBRIDGV_INLINE void differentiate(const RadialEpipolar& ray, Doubles variance, 
   derivatives[7] = depth * ray.l3 - ratio * (2 * pose.f * ray.l3 * alongImage + mapByDepth * depth);
 }
 
+// With dw = (r1 + k u r3) du + (r2 + k v r3) dv
+//   dC = A du + B dv,   dG/2 = k l3 (A du + B dv) + h (t x m) . dw
+HYBRIDGV_INLINE ImageDerivatives differentiateByImage(const RadialEpipolar& ray, Doubles variance, const RadialPose& pose) {
+  const Vec3<Doubles> inMap = mapByDirection(ray);
+  const Doubles ratio = ray.constraint / variance, kl3 = ray.k * ray.l3, alongAxis = ray.k * dot(inMap, pose.r3);
+  return {ray.A - ratio * (kl3 * ray.A + dot(inMap, pose.r1) + ray.image.x * alongAxis),
+          ray.B - ratio * (kl3 * ray.B + dot(inMap, pose.r2) + ray.image.y * alongAxis)};
+}
+
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust
 }  // namespace hybridgv

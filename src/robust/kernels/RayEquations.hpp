@@ -10,13 +10,11 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-template <class Camera>
-static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
-  if (rays.size == 0) return;
-  const typename Camera::Pose pose(plainPose);
+// Calls body(ray, variance, derivatives, weight) for all rays, kWidth at a time, of which some have a weight.
+template <class Camera, class Body>
+HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& plainPose, const typename Camera::Pose& pose,
+                                     const KindLoss& loss, CostSum& cost, Body body) {
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
-  CostSum cost(loss);
-  NormalEquationsSum<Camera::kParameters> sums;
   forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles squaredError = ray.squaredError();
@@ -26,10 +24,42 @@ static void addRays(const RayArrays& rays, const PlainPose& plainPose, const Kin
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
     Row<Camera::kParameters> derivatives;
     differentiate(ray, variance, pose, derivatives);
-    sums.add(derivatives, ray.constraint, weight / variance);
+    body(ray, variance, derivatives, weight / variance);
   });
+}
+
+template <class Camera>
+static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
+  if (rays.size == 0) return;
+  const typename Camera::Pose pose(plainPose);
+  CostSum cost(loss);
+  NormalEquationsSum<Camera::kParameters> sums;
+  forWeightedRays<Camera>(rays, plainPose, pose, loss, cost,
+                          [&](const typename Camera::Ray& ray, Doubles, const Row<Camera::kParameters>& derivatives,
+                              Doubles weight) { sums.add(derivatives, ray.constraint, weight); });
   total.cost += cost.total();
   sums.addTo(total);
+}
+
+template <class Camera>
+static void addRayShifts(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, ImageShiftSums& total) {
+  if (rays.size == 0) return;
+  const typename Camera::Pose pose(plainPose);
+  CostSum cost(loss);
+  Doubles alongU[Camera::kParameters] = {}, alongV[Camera::kParameters] = {};
+  forWeightedRays<Camera>(
+      rays, plainPose, pose, loss, cost,
+      [&](const typename Camera::Ray& ray, Doubles variance, const Row<Camera::kParameters>& derivatives, Doubles weight) {
+        const ImageDerivatives change = differentiateByImage(ray, variance, pose);
+        for (int row = 0; row < Camera::kParameters; ++row) {
+          alongU[row] += weight * derivatives[row] * change.byU;
+          alongV[row] += weight * derivatives[row] * change.byV;
+        }
+      });
+  for (int row = 0; row < Camera::kParameters; ++row) {
+    total.alongU[row] += sum(alongU[row]);
+    total.alongV[row] += sum(alongV[row]);
+  }
 }
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET
