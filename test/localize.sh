@@ -35,6 +35,9 @@ for pixels in nan inf 0 -1; do
   expect_error "--max-reprojection-error: must be positive and finite, is $pixels" --max-reprojection-error $pixels
   expect_error "--max-epipolar-error: must be positive and finite, is $pixels" --max-epipolar-error $pixels
 done
+for pixels in nan inf -1; do
+  expect_error "--principal-point-deviation: must be finite and not negative, is $pixels" --principal-point-deviation $pixels
+done
 expect_error "--min-parallax: must be finite and not negative, is nan" --min-parallax nan
 for seed in -1 99999999999999999999 1.5; do expect_error "--seed: must be an integer from 0 .*, is $seed" --seed $seed; done
 for count in 0 -1 1.5; do expect_error "--max-iterations: must be a positive integer, is $count" --max-iterations $count; done
@@ -71,6 +74,16 @@ grep -q '"reference_radial_k":' "$scratch/radial" || fail "the reference of k1 i
 "$program" "$map" --query 3 --json --query-camera pinhole | grep -q '"radial_k":0.0,"radial_k_std":0.0' || fail "--query-camera pinhole"
 "$program" "$map" --query 3 --json --undistort-query > "$scratch/undistorted" || fail "--undistort-query"
 grep -q '"reference_radial_k":' "$scratch/undistorted" && fail "an undistorted query has no k1"
+
+# An allowance for the principal point changes the deviations alone.
+"$program" "$map" --query 3 --json --principal-point-deviation 8 > "$scratch/allowance" || fail "--principal-point-deviation"
+deviations='"\(focal_length\|radial_k\)_std[^:]*":[^,]*,'
+sed "s/$deviations//g; s/\"seconds\":[^},]*//g" "$scratch/radial" > "$scratch/a"
+sed "s/$deviations//g; s/\"seconds\":[^},]*//g" "$scratch/allowance" > "$scratch/b"
+cmp "$scratch/a" "$scratch/b" || fail "another result with an allowance for the principal point"
+deviation() { sed 's/.*"hybrid".*"focal_length_std_px":\([0-9.e-]*\).*"points_only".*/\1/' "$1"; }
+echo "$(deviation "$scratch/radial") $(deviation "$scratch/allowance")" | awk '{ exit !($2 > $1) }' ||
+  fail "an allowance for the principal point: $(deviation "$scratch/radial"), $(deviation "$scratch/allowance")"
 expect_error "--query-camera: fisheye not in" --query-camera fisheye
 
 # Results that cannot be written are no success.

@@ -96,6 +96,7 @@ std::vector<OptionRow> makeRows() {
       HYBRIDGV_OPTION(double, "max_focal_length_deviation", ransac., maxFocalLengthDeviation),
       HYBRIDGV_OPTION(double, "min_focal_length", ransac., minFocalLength),
       HYBRIDGV_OPTION(double, "max_focal_length", ransac., maxFocalLength),
+      HYBRIDGV_OPTION(double, "principal_point_deviation", ransac., principalPointDeviationPx),
       HYBRIDGV_OPTION(double, "image_radius", ransac., imageRadiusPx),
       HYBRIDGV_OPTION(double, "distortion_scale", ransac., distortionScale),
       HYBRIDGV_OPTION(double, "distortion_evidence", ransac., distortionEvidence),

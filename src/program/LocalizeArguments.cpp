@@ -71,6 +71,9 @@ int parseLocalize(std::vector<std::string> given, LocalizeArguments& arguments) 
             "positive and finite", isPositive);
   addNumber(app, "--max-epipolar-error", ransac.maxEpipolarErrorPx, "inlier threshold of 2D-2D matches, Sampson error [px]",
             "positive and finite", isPositive);
+  addNumber(app, "--principal-point-deviation", ransac.principalPointDeviationPx,
+            "how far the principal point may be off, standard deviation [px]: allowed for in those of the results",
+            "finite and not negative", isNotNegative);
   addNumber(app, "--min-parallax", arguments.matches.minParallaxDeg,
             "smaller parallax of the map's rays makes a match 2D-2D [deg]", "finite and not negative", isNotNegative);
   addNumber(app, "--outliers", arguments.outlierShare, "share of the matches to pair wrongly, 0 .. 1", "from 0 to 1", isShare);

@@ -58,6 +58,9 @@ void addOwnOptions(CLI::App& app, RegistratorArguments& a, std::string& matches)
   app.add_option("--matches", matches, "the verified matches (two_view_geometries) or the raw ones (matches)")
       ->check(CLI::IsMember({"two_view_geometries", "matches"}))
       ->capture_default_str();
+  addNumber(app, "--principal_point_deviation", a.registration.localization.ransac.principalPointDeviationPx,
+            "how far principal points may be off, standard deviation [px]: allowed for in those of the results",
+            "finite and not negative", isNotNegative);
   addSwitch(app, "--radial", a.registration.localization.estimateDistortion, "the same as --Mapper.abs_pose_refine_extra_params");
   addSwitch(app, "--same_camera", a.queries.useCamerasOfMap, "images whose camera the map has are taken with it as it is");
   addSwitch(app, "--require_all", a.requireAll, "exit with code 3 if an image was not registered");

@@ -45,6 +45,15 @@ def test_finds_pose_and_focal_length(scene, camera):
     assert result.iterations == sum(result.iterations_per_solver.values())
 
 
+def test_an_allowance_for_the_principal_point_changes_the_deviations_alone(scene, camera):
+    exact = hybridgv.localize(*scene.arrays, camera=camera)
+    result = hybridgv.localize(*scene.arrays, camera=camera, options={"principal_point_deviation": 5})
+    assert np.array_equal(result.pose.position, exact.pose.position)
+    assert np.all(np.diag(result.covariance) > np.diag(exact.covariance))
+    assert result.covariance[0, 0] > 4 * exact.covariance[0, 0]
+    assert result.focal_length_std > exact.focal_length_std
+
+
 def test_two_poses_that_are_as_good_are_no_success(camera):
     one, other = make_scene(21, points=120, rays=0), make_scene(22, points=120, rays=0)
     points2D = np.concatenate([one.points2D, other.points2D])
@@ -283,6 +292,7 @@ def test_defaults_of_options_are_the_librarys():
         ({"max_reproj_error": -1}, "max_reproj_error.*-1"),
         ({"min_focal_length": 5, "max_focal_length": 4}, "max_focal_length"),
         ({"max_focal_length_deviation": -1}, "max_focal_length_deviation"),
+        ({"principal_point_deviation": -1}, "principal_point_deviation.*-1"),
         ({"scoring": "votes"}, "'msac' or 'inlier_count', is 'votes'"),
         ({"sampling": "some"}, "'quality_ordered' or 'uniform'"),
         ({"solvers": ["p5pf"]}, "p5pf.*p35pf"),

@@ -25,6 +25,9 @@ class Options:
         time_budget: no new sample after this time [s]
         min_focal_length, max_focal_length: bounds of the focal length [px]
         max_focal_length_deviation: a success needs a standard deviation of the focal length below this share of it
+        principal_point_deviation: how far the principal point may be off, as the standard deviation of each coordinate [px]. It
+            is allowed for in the covariance and the standard deviations, the pose does not depend on it. Where the middle of
+            the image stands for the principal point, 0.5 % of the image's longer side is usual.
         radial: find the lens distortion too, and keep it if the data speak for it. Not for cameras that are known; for models
             without distortion (SIMPLE_PINHOLE, PINHOLE) not by localize, but by what reads pixels of a map's images or of a
             database (Map.localize, register_images, hybridgv.hloc): their results say distortion_is_lost, because the model
@@ -54,6 +57,7 @@ class Options:
     min_focal_length: float = 0.0
     max_focal_length: float = math.inf
     max_focal_length_deviation: float = 0.3
+    principal_point_deviation: float = 0.0
     radial: bool = True
     image_radius: float = 0.0
     distortion_scale: float = 0.05
