@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "correspondences/readCorrespondence.hpp"
+#include "math/nthSmallest.hpp"
 
 namespace hybridgv {
 namespace correspondences {
@@ -12,10 +13,9 @@ namespace {
 
 constexpr std::size_t kRayColumns = 13, kPointColumns = 5;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// The place of a quantile.
+std::size_t placeOf(double share, const std::vector<double>& values) {
+  return static_cast<std::size_t>(share * static_cast<double>(values.size()));
 }
 
 // Coordinate-wise median and median distance from it: a few points far away must not decide.
@@ -25,11 +25,11 @@ Normalization normalizationOf(const std::vector<Eigen::Vector3d>& positions) {
   std::vector<double> values(positions.size());
   for (int k = 0; k < 3; ++k) {
     std::transform(positions.begin(), positions.end(), values.begin(), [k](const Eigen::Vector3d& x) { return x[k]; });
-    result.centre[k] = median(values);
+    result.centre[k] = math::median(values);
   }
   std::transform(positions.begin(), positions.end(), values.begin(),
                  [&](const Eigen::Vector3d& x) { return (x - result.centre).norm(); });
-  const double distance = median(values);
+  const double distance = math::median(values);
   if (distance > 0) result.unit = distance;
   return result;
 }
@@ -129,9 +129,7 @@ double CorrespondenceArrays::imageSize() const {
   for (const RayMatch& match : rays_) coordinates.push_back(std::max(std::abs(match.u), std::abs(match.v)));
   for (const PointMatch& match : points_) coordinates.push_back(std::max(std::abs(match.u), std::abs(match.v)));
   if (coordinates.empty()) return 0;
-  const auto quantile = coordinates.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(coordinates.size()));
-  std::nth_element(coordinates.begin(), quantile, coordinates.end());
-  return 2 * *quantile;
+  return 2 * math::nthSmallest(coordinates, placeOf(kShare, coordinates));
 }
 
 double CorrespondenceArrays::imageRadius() const {
@@ -140,9 +138,8 @@ double CorrespondenceArrays::imageRadius() const {
   for (const RayMatch& match : rays_) radii.push_back(std::hypot(match.u, match.v));
   for (const PointMatch& match : points_) radii.push_back(std::hypot(match.u, match.v));
   if (radii.empty()) return 0;
-  const auto quantile = radii.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(radii.size()));
-  std::nth_element(radii.begin(), quantile, radii.end());
-  return std::min(kMostOfQuantile * *quantile, *std::max_element(quantile, radii.end()));
+  const double quantile = math::nthSmallest(radii, placeOf(kShare, radii));
+  return std::min(kMostOfQuantile * quantile, *std::max_element(radii.begin(), radii.end()));
 }
 
 void CorrespondenceArrays::fixUnknownFocalLengths() {

@@ -26,12 +26,14 @@ ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarE
   RobustBox query, map;
   for (const correspondences::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
   for (const correspondences::PointMatch& match : arrays.points()) query.add(match.u, match.v);
+  const RobustBox::Size querySize = query.size();
   const double band = 2 * std::sqrt(2.) * maxEpipolarError;
-  rayShare_ = share(band * query.diagonal(), query.area());
-  pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, query.area());
+  rayShare_ = share(band * querySize.diagonal(), querySize.area());
+  pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, querySize.area());
 
   for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) map.add(point.x, point.y);
-  const double perPixel = band * map.diagonal() / (map.area() * static_cast<double>(arrays.rays().size()));
+  const RobustBox::Size mapSize = map.size();
+  const double perPixel = band * mapSize.diagonal() / (mapSize.area() * static_cast<double>(arrays.rays().size()));
   for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) {
     rayShare_ += share(perPixel, point.focalLength);
   }

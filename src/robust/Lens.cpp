@@ -8,9 +8,10 @@ namespace robust {
 
 Lens makeLens(const CorrespondenceArrays& arrays, const sac::HybridRansacOptions& options) {
   Lens lens;
+  if (options.queryCamera == sac::QueryCamera::Pinhole) return lens;
   const double radius = std::max(arrays.imageRadius(), options.imageRadiusPx);
   const double unit = 1 / (radius * radius);
-  if (options.queryCamera == sac::QueryCamera::Pinhole || !std::isnormal(unit)) return lens;
+  if (!std::isnormal(unit)) return lens;
   lens.isUnknown = true;
   lens.prior.scale = options.distortionScale * unit;
   lens.least = kLeastDistortion * unit;

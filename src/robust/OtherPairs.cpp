@@ -36,6 +36,12 @@ std::vector<ImagePoint> imagePoints(const CorrespondenceArrays& arrays) {
 // Candidates of one group in columns, so that the distances to all of them are computed many at once.
 class Candidates {
  public:
+  void reserve(std::size_t size) {
+    index_.reserve(size);
+    x_.reserve(size);
+    y_.reserve(size);
+    z_.reserve(size);
+  }
   void add(std::size_t index, const Eigen::Vector3d& position) {
     index_.push_back(index);
     x_.push_back(position[0]);
@@ -89,12 +95,16 @@ class Nearest {
 // Of the first matches, by group.
 template <class Matches, class Group, class Position>
 std::vector<Candidates> candidatesOf(const Matches& matches, Group group, Position position) {
-  std::vector<Candidates> result;
-  for (std::size_t j = 0; j < std::min(matches.size(), kCandidates); ++j) {
-    const auto of = static_cast<std::size_t>(group(matches[j]));
-    if (of >= result.size()) result.resize(of + 1);
-    result[of].add(j, position(matches[j]));
+  const std::size_t count = std::min(matches.size(), kCandidates);
+  const auto groupOf = [&](std::size_t j) { return static_cast<std::size_t>(group(matches[j])); };
+  std::vector<std::size_t> sizes;
+  for (std::size_t j = 0; j < count; ++j) {
+    if (groupOf(j) >= sizes.size()) sizes.resize(groupOf(j) + 1, 0);
+    ++sizes[groupOf(j)];
   }
+  std::vector<Candidates> result(sizes.size());
+  for (std::size_t of = 0; of < sizes.size(); ++of) result[of].reserve(sizes[of]);
+  for (std::size_t j = 0; j < count; ++j) result[groupOf(j)].add(j, position(matches[j]));
   return result;
 }
 

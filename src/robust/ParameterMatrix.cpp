@@ -1,5 +1,6 @@
 #include "robust/ParameterMatrix.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 namespace hybridgv {
@@ -23,16 +24,29 @@ FullParameterMatrix Eigendecomposition::withValues(const FullParameterVector& ot
   return vectors * others.asDiagonal() * vectors.transpose();
 }
 
+// The inverse of a matrix with ones in its diagonal; false if its smallest eigenvalue is too small.
+static bool invertScaled(const FullParameterMatrix& scaled, FullParameterMatrix& inverse) {
+  constexpr double kSmallest = 1e-13, kSurelyLarger = 1e-10;
+  const Eigen::LLT<FullParameterMatrix> cholesky(scaled);
+  if (cholesky.info() == Eigen::Success) {
+    inverse = cholesky.solve(FullParameterMatrix::Identity());
+    if (inverse.trace() < 1 / kSurelyLarger) return true;  // the trace exceeds every eigenvalue
+  }
+  const Eigendecomposition eigen = eigendecomposition(scaled);
+  if (!(eigen.values[0] > kSmallest)) return false;
+  inverse = eigen.withValues(eigen.values.cwiseInverse());
+  return true;
+}
+
 bool invertInformation(const ParameterMatrix& information, ParameterMatrix& covariance) {
-  // Smallest eigenvalue of the information in units in which every parameter alone has information 1.
-  constexpr double kSmallest = 1e-13;
   const FullParameterMatrix extended = extendedByIdentity(information);
   const FullParameterVector diagonal = extended.diagonal();
   if (!extended.allFinite() || !(diagonal.minCoeff() > 0)) return false;
+  // Units in which every parameter alone has information 1.
   const FullParameterVector scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigendecomposition eigen = eigendecomposition(scale.asDiagonal() * extended * scale.asDiagonal());
-  if (!(eigen.values[0] > kSmallest)) return false;
-  const FullParameterMatrix inverse = scale.asDiagonal() * eigen.withValues(eigen.values.cwiseInverse()) * scale.asDiagonal();
+  FullParameterMatrix inverse;
+  if (!invertScaled(scale.asDiagonal() * extended * scale.asDiagonal(), inverse)) return false;
+  inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
   covariance = inverse.topLeftCorner(information.rows(), information.cols());
   return covariance.allFinite();
 }

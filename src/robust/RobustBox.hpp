@@ -1,10 +1,11 @@
 // The size of an image region that holds most of some points.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "math/nthSmallest.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -17,18 +18,19 @@ class RobustBox {
     u_.push_back(u);
     v_.push_back(v);
   }
-  double area() const { return extent(u_) * extent(v_); }
-  double diagonal() const { return std::hypot(extent(u_), extent(v_)); }
+  struct Size {
+    double width, height;
+    double area() const { return width * height; }
+    double diagonal() const { return std::hypot(width, height); }
+  };
+  Size size() const { return {extent(u_), extent(v_)}; }
 
  private:
   static double extent(std::vector<double> values) {
     if (values.empty()) return 0;
     constexpr double kLeftOut = 0.05;
-    const auto skip = static_cast<std::ptrdiff_t>(kLeftOut * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + skip, values.end());
-    const double low = values[static_cast<std::size_t>(skip)];
-    std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
-    const double high = *(values.end() - 1 - skip);
+    const auto skip = static_cast<std::size_t>(kLeftOut * static_cast<double>(values.size()));
+    const double low = math::nthSmallest(values, skip), high = math::nthSmallest(values, values.size() - 1 - skip);
     return (high - low) / (1 - 2 * static_cast<double>(skip) / static_cast<double>(values.size()));
   }
   std::vector<double> u_, v_;

@@ -36,11 +36,12 @@ double workingThreshold(const std::vector<double>& squaredErrors, double bound, 
 }  // namespace
 
 Thresholds thresholdBounds(const Thresholds& given, const correspondences::CorrespondenceArrays& arrays) {
+  if (given.rays > 0 && given.points > 0) return given;
   RobustBox image;
   for (const correspondences::RayMatch& match : arrays.rays()) image.add(match.u, match.v);
   for (const correspondences::PointMatch& match : arrays.points()) image.add(match.u, match.v);
   // Image points that coincide have no size; then no threshold makes sense, and any will do.
-  const double diagonal = image.diagonal() > 0 ? image.diagonal() : 1;
+  const double measured = image.size().diagonal(), diagonal = measured > 0 ? measured : 1;
   return {given.rays > 0 ? given.rays : kBoundOfRays * diagonal, given.points > 0 ? given.points : kBoundOfPoints * diagonal};
 }
 

@@ -14,6 +14,7 @@ std::thread startThread(std::function<void()> function) { return std::thread(std
 }  // namespace
 
 std::size_t numberOfWorkers(int threads, int mostTasks) {
+  if (threads == 1) return 1;  // to count the cores takes longer than many a sample
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int wished = threads > 0 ? threads : cores;
   return static_cast<std::size_t>(std::max(1, std::min({wished, kMostPerCore * cores, mostTasks})));
