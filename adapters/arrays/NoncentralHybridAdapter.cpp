@@ -17,6 +17,10 @@ void checkSize(const char* name, std::size_t size, const char* reference, std::s
     throwInvalid(name, "has " + std::to_string(size) + " entries, " + reference + " has " + std::to_string(expected));
 }
 
+void checkSizeUnlessEmpty(const char* name, std::size_t size, const char* reference, std::size_t expected) {
+  if (size != 0) checkSize(name, size, reference, expected);
+}
+
 std::string element(const char* name, std::size_t index) { return std::string(name) + "[" + std::to_string(index) + "]"; }
 
 void checkAllFinite(const char* name, const Vectors& values) {
@@ -76,12 +80,19 @@ void NoncentralHybridAdapter::setRigFocalLengths(std::vector<double> focalLength
 }
 
 void NoncentralHybridAdapter::setWeights(std::vector<double> weights2d2d, std::vector<double> weights2d3d) {
-  if (!weights2d2d.empty()) checkSize("weights2d2d", weights2d2d.size(), "imagePoints2d2d", imagePoints2d2d_.size());
-  if (!weights2d3d.empty()) checkSize("weights2d3d", weights2d3d.size(), "imagePoints2d3d", imagePoints2d3d_.size());
+  checkSizeUnlessEmpty("weights2d2d", weights2d2d.size(), "imagePoints2d2d", imagePoints2d2d_.size());
+  checkSizeUnlessEmpty("weights2d3d", weights2d3d.size(), "imagePoints2d3d", imagePoints2d3d_.size());
   checkValues("weights2d2d", weights2d2d, true);
   checkValues("weights2d3d", weights2d3d, true);
   weights2d2d_ = std::move(weights2d2d);
   weights2d3d_ = std::move(weights2d3d);
+}
+
+void NoncentralHybridAdapter::setFeatures(std::vector<int> features2d2d, std::vector<int> features2d3d) {
+  checkSizeUnlessEmpty("features2d2d", features2d2d.size(), "imagePoints2d2d", imagePoints2d2d_.size());
+  checkSizeUnlessEmpty("features2d3d", features2d3d.size(), "imagePoints2d3d", imagePoints2d3d_.size());
+  features2d2d_ = std::move(features2d2d);
+  features2d3d_ = std::move(features2d3d);
 }
 
 std::size_t NoncentralHybridAdapter::getNumberCorrespondences2d2d() const { return imagePoints2d2d_.size(); }
@@ -103,5 +114,8 @@ std::size_t NoncentralHybridAdapter::getNumberCorrespondences2d3d() const { retu
 Eigen::Vector3d NoncentralHybridAdapter::getImagePoint2d3d(std::size_t index) const { return imagePoints2d3d_[index]; }
 Eigen::Vector3d NoncentralHybridAdapter::getPoint(std::size_t index) const { return points_[index]; }
 double NoncentralHybridAdapter::getWeight2d3d(std::size_t index) const { return weights2d3d_.empty() ? 1 : weights2d3d_[index]; }
+
+int NoncentralHybridAdapter::getFeature2d2d(std::size_t index) const { return features2d2d_.empty() ? -1 : features2d2d_[index]; }
+int NoncentralHybridAdapter::getFeature2d3d(std::size_t index) const { return features2d3d_.empty() ? -1 : features2d3d_[index]; }
 
 }  // namespace hybridgv

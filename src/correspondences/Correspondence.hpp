@@ -41,6 +41,7 @@ struct RigRay {
 struct Correspondences {
   std::vector<RigRay> rays;
   std::vector<PointMatch> points;
+  std::vector<int> rayFeatures, pointFeatures;  // numbers of the query's features, negative if not known; empty if none is
 
   // Those with these indices, in their order.
   Correspondences subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const;

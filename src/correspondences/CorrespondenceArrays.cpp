@@ -42,6 +42,10 @@ std::vector<Element> chosen(const std::vector<Element>& list, const std::vector<
   return result;
 }
 
+std::vector<int> chosenIfAny(const std::vector<int>& list, const std::vector<int>& indices) {
+  return list.empty() ? list : chosen(list, indices);
+}
+
 // Columns of padded(size) rows each.
 std::vector<double> chosenRows(const std::vector<double>& columns, std::size_t count, std::size_t size,
                                const std::vector<int>& indices) {
@@ -55,7 +59,8 @@ std::vector<double> chosenRows(const std::vector<double>& columns, std::size_t c
 
 }  // namespace
 
-CorrespondenceArrays::CorrespondenceArrays(const Correspondences& correspondences) : points_(correspondences.points) {
+CorrespondenceArrays::CorrespondenceArrays(const Correspondences& correspondences)
+    : points_(correspondences.points), rayFeatures_(correspondences.rayFeatures), pointFeatures_(correspondences.pointFeatures) {
   rays_.reserve(correspondences.rays.size());
   mapImagePoints_.reserve(correspondences.rays.size());
   for (const RigRay& ray : correspondences.rays) {
@@ -78,6 +83,8 @@ CorrespondenceArrays CorrespondenceArrays::subset(const std::vector<int>& rayInd
   result.rays_ = chosen(rays_, rayIndices);
   result.points_ = chosen(points_, pointIndices);
   result.mapImagePoints_ = chosen(mapImagePoints_, rayIndices);
+  result.rayFeatures_ = chosenIfAny(rayFeatures_, rayIndices);
+  result.pointFeatures_ = chosenIfAny(pointFeatures_, pointIndices);
   result.rayColumns_ = chosenRows(rayColumns_, kRayColumns, rays_.size(), rayIndices);
   result.pointColumns_ = chosenRows(pointColumns_, kPointColumns, points_.size(), pointIndices);
   return result;
@@ -168,7 +175,8 @@ PointArrays CorrespondenceArrays::pointArrays() const {
 }
 
 Correspondences Correspondences::subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const {
-  return {chosen(rays, rayIndices), chosen(points, pointIndices)};
+  return {chosen(rays, rayIndices), chosen(points, pointIndices), chosenIfAny(rayFeatures, rayIndices),
+          chosenIfAny(pointFeatures, pointIndices)};
 }
 
 std::size_t padded(std::size_t size) { return (size + kPadding - 1) / kPadding * kPadding; }

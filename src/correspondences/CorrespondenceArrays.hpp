@@ -55,6 +55,9 @@ class CorrespondenceArrays {
   const std::vector<PointMatch>& points() const { return points_; }
   using MapImagePoint = correspondences::MapImagePoint;
   const std::vector<MapImagePoint>& mapImagePoints() const { return mapImagePoints_; }
+  // Numbers of the query's features; empty if none is known.
+  const std::vector<int>& rayFeatures() const { return rayFeatures_; }
+  const std::vector<int>& pointFeatures() const { return pointFeatures_; }
   RayArrays rayArrays() const;
   PointArrays pointArrays() const;
 
@@ -68,6 +71,7 @@ class CorrespondenceArrays {
   std::vector<RayMatch> rays_;
   std::vector<PointMatch> points_;
   std::vector<MapImagePoint> mapImagePoints_;
+  std::vector<int> rayFeatures_, pointFeatures_;
   std::vector<double> rayColumns_, pointColumns_;
 };
 

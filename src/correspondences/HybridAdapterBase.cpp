@@ -7,6 +7,8 @@ HybridAdapterBase::~HybridAdapterBase() = default;
 double HybridAdapterBase::getRigFocalLength(std::size_t /*index*/) const { return 0; }
 double HybridAdapterBase::getWeight2d2d(std::size_t /*index*/) const { return 1; }
 double HybridAdapterBase::getWeight2d3d(std::size_t /*index*/) const { return 1; }
+int HybridAdapterBase::getFeature2d2d(std::size_t /*index*/) const { return -1; }
+int HybridAdapterBase::getFeature2d3d(std::size_t /*index*/) const { return -1; }
 
 }  // namespace hybrid_pose
 }  // namespace hybridgv

@@ -1,5 +1,6 @@
 #include "correspondences/readCorrespondence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -79,6 +80,17 @@ std::size_t checkedCount(const char* getter, std::size_t count) {
   return count;
 }
 
+// Empty if none is known.
+template <class Feature>
+std::vector<int> readFeatures(const std::vector<int>& indices, Feature featureOf) {
+  std::vector<int> features(indices.size());
+  std::transform(indices.begin(), indices.end(), features.begin(),
+                 [&](int index) { return featureOf(static_cast<std::size_t>(index)); });
+  const bool anyIsKnown = std::any_of(features.begin(), features.end(), [](int feature) { return feature >= 0; });
+  if (!anyIsKnown) features.clear();
+  return features;
+}
+
 double checkedWeight(const char* getter, int index, double weight) {
   if (!std::isfinite(weight)) throwInvalid(nameOf(getter, index), "must be finite, is " + detail::format(weight));
   return weight;
@@ -99,6 +111,8 @@ Correspondences readCorrespondences(const hybrid_pose::HybridAdapterBase& adapte
   for (const int index : rayIndices) result.rays.push_back(readRigRay(adapter, index));
   for (const int index : pointIndices) result.points.push_back(readPoint(adapter, index));
   numberCamerasByCentre(result.rays);
+  result.rayFeatures = readFeatures(rayIndices, [&](std::size_t index) { return adapter.getFeature2d2d(index); });
+  result.pointFeatures = readFeatures(pointIndices, [&](std::size_t index) { return adapter.getFeature2d3d(index); });
   return result;
 }
 

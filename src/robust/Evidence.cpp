@@ -3,54 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-
-#include "math/RandomStream.hpp"
+#include <utility>
 
 namespace hybridgv {
 namespace robust {
 namespace {
 
-// Image points in one cell of this size [px] are taken as one feature.
+// Size of a cell [px].
 constexpr double kCell = 2;
 
-using Key = std::uint64_t;
-
-// A key that is equal for equal numbers, and as good as never for others.
-template <class Number, std::size_t N>
-Key keyOf(const std::array<Number, N>& numbers) {
-  Key key = 0;
-  for (const Number number : numbers) {
-    const double value = static_cast<double>(number) + 0.0;  // -0 is 0
-    Key bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    key = math::RandomStream(key, bits).next();
-  }
-  return key;
+Key cellOf(const ImagePoint& place) {
+  return keyOf(std::array<double, 2>{std::floor(place.u / kCell), std::floor(place.v / kCell)});
 }
-
-// Equal keys get equal numbers 0, 1, ..; returns how many there are.
-int number(const std::vector<Key>& keys, std::vector<int>& numbers) {
-  // A hash table with linear probing, at most half full, of the places where a key was first seen. The keys are hashes already.
-  constexpr std::size_t kFree = ~std::size_t{0};
-  std::size_t size = 16;
-  while (size < 2 * keys.size()) size *= 2;
-  std::vector<std::size_t> slots(size, kFree);
-  numbers.resize(keys.size());
-  int count = 0;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    std::size_t slot = static_cast<std::size_t>(keys[i]) & (size - 1);
-    while (slots[slot] != kFree && keys[slots[slot]] != keys[i]) slot = (slot + 1) & (size - 1);
-    const bool isNew = slots[slot] == kFree;
-    if (isNew) slots[slot] = i;
-    numbers[i] = isNew ? count : numbers[slots[slot]];
-    count += isNew;
-  }
-  return count;
-}
-
-Key cellOf(double u, double v) { return keyOf(std::array<double, 2>{std::floor(u / kCell), std::floor(v / kCell)}); }
 
 // As floats, so that a rounding error of the rig's frame does not make two items of one.
 Key itemOf(int camera, const Eigen::Vector3d& x) {
@@ -77,26 +41,40 @@ class DifferentNumbers {
 
 }  // namespace
 
-Evidence::Evidence(const correspondences::CorrespondenceArrays& arrays) {
-  std::vector<Key> cells, rays, points;
-  cells.reserve(arrays.rays().size() + arrays.points().size());
+Evidence::Evidence(const correspondences::CorrespondenceArrays& arrays) : Evidence(arrays, QueryFeatures(arrays)) {}
+
+Evidence::Evidence(const correspondences::CorrespondenceArrays& arrays, const QueryFeatures& features) {
+  std::vector<Key> rays, points;
   rays.reserve(arrays.rays().size());
   points.reserve(arrays.points().size());
   for (const correspondences::RayMatch& ray : arrays.rays()) {
-    cells.push_back(cellOf(ray.u, ray.v));
     rays.push_back(itemOf(ray.camera, ray.direction));
     cameras_.push_back(ray.camera);
   }
-  for (const correspondences::PointMatch& match : arrays.points()) {
-    cells.push_back(cellOf(match.u, match.v));
-    points.push_back(itemOf(0, match.point));
-  }
-  std::vector<int> features;
-  features_ = number(cells, features);
-  rays_.feature.assign(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(rays.size()));
-  points_.feature.assign(features.begin() + static_cast<std::ptrdiff_t>(rays.size()), features.end());
-  rayItems_ = number(rays, rays_.item);
-  pointItems_ = number(points, points_.item);
+  for (const correspondences::PointMatch& match : arrays.points()) points.push_back(itemOf(0, match.point));
+  setItems(rays, rays_.item, rayItems_);
+  setItems(points, points_.item, pointItems_);
+  setFeatures(features);
+}
+
+void Evidence::setItems(const std::vector<Key>& keys, std::vector<int>& items, int& count) {
+  Numbering numbering = numberEqual(keys);
+  items = std::move(numbering.numbers);
+  count = numbering.count;
+}
+
+// Features in one cell are taken as one.
+void Evidence::setFeatures(const QueryFeatures& features) {
+  std::vector<Key> keys;
+  keys.reserve(features.places().size());
+  for (const ImagePoint& place : features.places()) keys.push_back(cellOf(place));
+  const Numbering cells = numberEqual(keys);
+  features_ = cells.count;
+  const auto cellOfFeature = [&](int feature) { return cells.numbers[static_cast<std::size_t>(feature)]; };
+  rays_.feature.resize(rays_.item.size());
+  points_.feature.resize(points_.item.size());
+  for (std::size_t i = 0; i < rays_.feature.size(); ++i) rays_.feature[i] = cellOfFeature(features.ofRay(i));
+  for (std::size_t i = 0; i < points_.feature.size(); ++i) points_.feature[i] = cellOfFeature(features.ofPoint(i));
 }
 
 Support Evidence::support(const InlierMasks& inliers) const {

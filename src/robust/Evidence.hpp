@@ -5,6 +5,8 @@
 
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/PerKind.hpp"
+#include "robust/QueryFeatures.hpp"
+#include "robust/numberEqual.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -20,10 +22,12 @@ using InlierMasks = PerKind<std::vector<char>>;
 // A match that is listed twice, the images of one wrong feature in several map images, or a point together with the rays of its own
 // track agree with a wrong pose all at once or not at all: they are one accident, not several. So the support of a pose is counted
 // in *different* correspondences: of a kind it is the number of different features of the query or of different items of the rig
-// (points, or rays) among its inliers, whichever is smaller. A feature that an inlier point has used does not count for rays.
+// (points, or rays) among its inliers, whichever is smaller. A feature that an inlier point has used does not count for rays. Features
+// that are very near to each other count as one.
 class Evidence {
  public:
   explicit Evidence(const correspondences::CorrespondenceArrays& arrays);
+  Evidence(const correspondences::CorrespondenceArrays& arrays, const QueryFeatures& features);
 
   Support support(const InlierMasks& inliers) const;
   // The same without the rays of one camera.
@@ -37,6 +41,8 @@ class Evidence {
   struct Groups {
     std::vector<int> feature, item;
   };
+  void setItems(const std::vector<Key>& keys, std::vector<int>& items, int& count);
+  void setFeatures(const QueryFeatures& features);
   template <class Counts>
   Support support(const InlierMasks& inliers, const Counts& counts) const;
 

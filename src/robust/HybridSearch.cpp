@@ -33,17 +33,6 @@ double chosenOf(const std::vector<double>& values, RandomStream& random) {
   return values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
 }
 
-// Correspondences of one group may share errors: the rays of a rig camera. Points, which are in random order, are groups of their
-// own, or as many together as leave this number of groups: more groups cost more and say little more.
-JackknifeGroups groupsOf(const CorrespondenceArrays& arrays) {
-  constexpr std::size_t kGroups = 64;
-  JackknifeGroups groups;
-  for (const correspondences::RayMatch& ray : arrays.rays()) groups.rays.push_back(ray.camera);
-  const std::size_t points = arrays.points().size(), together = (points + kGroups - 1) / kGroups;
-  for (std::size_t i = 0; i < points; ++i) groups.points.push_back(static_cast<int>(i / together));
-  return groups;
-}
-
 FocalLengthKnowledge knowledgeOf(const sac::HybridRansacOptions& options) {
   if (options.knownFocalLengthPx) return FocalLengthKnowledge::Exact;
   return options.focalLengthPriorPx ? FocalLengthKnowledge::Prior : FocalLengthKnowledge::None;
@@ -79,8 +68,9 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
               options.scoring),
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
-      significance_(scorer_, chance_, data_.sampler, estimated_.parameters(), options.seed),
-      optimizer_(makeOptimizer(scorer_, chance_)),
+      features_(data_.arrays),
+      significance_(scorer_, chance_, data_.sampler, features_, estimated_.parameters(), options.seed),
+      optimizer_(makeOptimizer(scorer_, chance_, features_)),
       workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
       workerStates_(workers_.size()),
       ofThreePointsAtFirst_(findable()) {
@@ -92,9 +82,9 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
 }
 
 // For the scorer's correspondences.
-LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance) const {
-  return {scorer,     chance, groupsOf(scorer.arrays()), options_.minFocalLength, options_.maxFocalLength,
-          estimated_, lens_,  makePrior(options_)};
+LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance,
+                                           const QueryFeatures& features) const {
+  return {scorer, chance, features, options_.minFocalLength, options_.maxFocalLength, estimated_, lens_, makePrior(options_)};
 }
 
 // No more samples than there are. If even a pose with which all correspondences agree were chance, a few are enough.
@@ -458,7 +448,8 @@ FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
   scorer.setThresholds(scorer_.thresholds());
   const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
-  const LocalOptimizer optimizer = makeOptimizer(scorer, chance);
+  const QueryFeatures features(all_.arrays);
+  const LocalOptimizer optimizer = makeOptimizer(scorer, chance, features);
   FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
   optimizer.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;

@@ -90,7 +90,7 @@ class HybridSearch {
 
   void tryInitialPose();
   void tryBatch(int count);
-  LocalOptimizer makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance) const;
+  LocalOptimizer makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features) const;
   int mostIterations() const;
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
@@ -145,6 +145,7 @@ class HybridSearch {
   PoseScorer scorer_;
   ChanceModel chance_;
   Shares chanceShares_;  // at all levels
+  QueryFeatures features_;
   Significance significance_;
   LocalOptimizer optimizer_;
   std::optional<StagedSampling> staged_;  // if a strategy needs it

@@ -3,17 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
-#include "correspondences/PaddedValues.hpp"
+#include "robust/ChosenArrays.hpp"
 #include "robust/toPlain.hpp"
 
 namespace hybridgv {
 namespace robust {
 namespace {
-
-using correspondences::padded;
-using correspondences::PaddedValues;
 
 // Without a group that has nearly all the information in some direction, one step says nothing. (Of the square root of what is left.)
 constexpr double kLeastRest = 1e-3;
@@ -30,64 +26,27 @@ std::vector<Members> membersOf(const std::vector<int>& groups) {
   return result;
 }
 
-// Copies of some entries of the arrays' columns. The copies are used one after the other.
-class Columns {
- public:
-  void clear() { used_ = 0; }
-  const double* pick(const double* column, const Members& members) {
-    if (used_ == buffers_.size()) buffers_.emplace_back();
-    std::vector<double>& buffer = buffers_[used_++];
-    buffer.assign(padded(members.size()), 0);
-    std::transform(members.begin(), members.end(), buffer.begin(), [=](std::size_t i) { return column[i]; });
-    return buffer.data();
-  }
-
- private:
-  std::deque<std::vector<double>> buffers_;
-  std::size_t used_ = 0;
-};
-
 // The sums of one group after the other.
 class GroupSums {
  public:
   GroupSums(const LeastSquaresProblem& problem, const QueryPose& pose) : problem_(problem), pose_(toPlain(pose)) {}
 
   NormalEquations ofPoints(const Members& members) {
-    columns_.clear();
-    PointArrays points = problem_.points;
-    points.size = members.size();
-    for (const double* PointArrays::*column :
-         {&PointArrays::u, &PointArrays::v, &PointArrays::x, &PointArrays::y, &PointArrays::z})
-      points.*column = columns_.pick(points.*column, members);
     NormalEquations sums;
-    problem_.kernels->addPoints(points, pose_, problem_.pointLoss, sums);
+    problem_.kernels->addPoints(chosen_.points(problem_.points, members), pose_, problem_.pointLoss, sums);
     return sums;
   }
 
   NormalEquations ofRays(const Members& members) {
-    columns_.clear();
-    RayArrays rays = problem_.rays;
-    rays.size = members.size();
-    for (const double* RayArrays::*column :
-         {&RayArrays::u, &RayArrays::v, &RayArrays::cx, &RayArrays::cy, &RayArrays::cz, &RayArrays::dx, &RayArrays::dy,
-          &RayArrays::dz, &RayArrays::ax, &RayArrays::ay, &RayArrays::az, &RayArrays::squaredPixel, &RayArrays::isUnknown})
-      rays.*column = columns_.pick(rays.*column, members);
-    PaddedValues narrowing;
-    if (rays.narrowing) {
-      std::vector<double> values;
-      for (const std::size_t i : members) values.push_back(*(rays.narrowing + i));
-      narrowing = PaddedValues(std::move(values), 1);
-    }
-    rays.narrowing = narrowing.pointer();
     NormalEquations sums;
-    problem_.kernels->addRays(rays, pose_, problem_.rayLoss, sums);
+    problem_.kernels->addRays(chosen_.rays(problem_.rays, members), pose_, problem_.rayLoss, sums);
     return sums;
   }
 
  private:
   const LeastSquaresProblem& problem_;
   PlainPose pose_;
-  Columns columns_;
+  ChosenArrays chosen_;
 };
 
 // The changes of the pose without each group.
@@ -155,28 +114,48 @@ Changes changesWithoutGroups(const LeastSquaresProblem& problem, const QueryPose
 
 // In coordinates in which the covariance C = L L^T is the identity, the largest eigenvalue of the sum of G random matrices over N
 // parameters exceeds 1 by chance, up to (1 + sqrt(N/G))^2.
-FullParameterMatrix inflated(const FullParameterMatrix& L, const Changes& changes, int parameters) {
+FullParameterMatrix inflated(const FullParameterMatrix& L, const FullParameterMatrix& jackknife, int groups, int parameters) {
   const auto lower = L.triangularView<Eigen::Lower>();
-  const FullParameterMatrix half = lower.solve(changes.covariance());
+  const FullParameterMatrix half = lower.solve(jackknife);
   const FullParameterMatrix halfTransposed = half.transpose();
   const Eigendecomposition white = eigendecomposition(lower.solve(halfTransposed));
-  const double root = std::sqrt(static_cast<double>(parameters) / changes.count()), byChance = root * (2 + root);
+  const double root = std::sqrt(static_cast<double>(parameters) / groups), byChance = root * (2 + root);
   const FullParameterVector factors = (white.values.array() - byChance).cwiseMax(1);
   return L * white.withValues(factors) * L.transpose();
 }
 
 }  // namespace
 
+JackknifeGroups jackknifeGroups(const CorrespondenceArrays& arrays, const QueryFeatures& features) {
+  constexpr std::size_t kGroups = 64;
+  JackknifeGroups groups;
+  for (const correspondences::RayMatch& ray : arrays.rays()) groups.rays.push_back(ray.camera);
+  std::vector<int> order(features.places().size(), -1);  // of the features of points
+  int count = 0;
+  for (std::size_t i = 0; i < arrays.points().size(); ++i) {
+    int& place = order[static_cast<std::size_t>(features.ofPoint(i))];
+    if (place < 0) place = count++;
+    groups.points.push_back(place);
+  }
+  const int together = (count + static_cast<int>(kGroups) - 1) / static_cast<int>(kGroups);
+  for (int& group : groups.points) group /= together;
+  return groups;
+}
+
 bool jackknifeCovariance(const LeastSquaresProblem& problem, const QueryPose& pose, const JackknifeGroups& groups,
-                         const Derivatives& all, ParameterMatrix& covariance) {
+                         const Derivatives& all, const std::optional<SharedInformation>& shared, ParameterMatrix& covariance) {
   if (!invertInformation(all.information, covariance)) return false;
   const int size = problem.estimated.parameters();
-  const FullParameterMatrix extended = extendedByIdentity(covariance);
-  const Eigen::LLT<FullParameterMatrix> cholesky(extended);
-  if (cholesky.info() != Eigen::Success) return true;
-  const Changes changes = changesWithoutGroups(problem, pose, groups, extended, all.gradient);
-  if (changes.count() < 2) return true;
-  covariance = inflated(cholesky.matrixL(), changes, size).topLeftCorner(size, size);
+  const FullParameterMatrix independent = extendedByIdentity(covariance);
+  const Changes changes = changesWithoutGroups(problem, pose, groups, independent, all.gradient);
+  FullParameterMatrix jackknife = changes.covariance();
+  if (shared) {
+    jackknife.topLeftCorner(size, size) += covariance * shared->betweenGroups * covariance;
+    covariance += ParameterMatrix(covariance * shared->all * covariance);
+  }
+  const Eigen::LLT<FullParameterMatrix> cholesky(extendedByIdentity(covariance));
+  if (changes.count() >= 2 && cholesky.info() == Eigen::Success)
+    covariance = inflated(cholesky.matrixL(), jackknife, changes.count(), size).topLeftCorner(size, size);
   return covariance.allFinite();
 }
 

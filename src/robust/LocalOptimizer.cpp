@@ -102,11 +102,13 @@ void allowForHiddenErrors(double& ray, double& point) {
 
 }  // namespace
 
-LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
-                               double maxFocalLength, Intrinsics estimated, Lens lens, FocalLengthPrior focalLengthPrior)
+LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features,
+                               double minFocalLength, double maxFocalLength, Intrinsics estimated, Lens lens,
+                               FocalLengthPrior focalLengthPrior)
     : scorer_(scorer),
       chance_(chance),
-      groups_(std::move(groups)),
+      features_(features),
+      groups_(jackknifeGroups(scorer.arrays(), features)),
       minFocalLength_(minFocalLength),
       maxFocalLength_(maxFocalLength),
       estimated_(estimated),
@@ -396,8 +398,27 @@ void LocalOptimizer::allowForPrincipalPoint(double deviation, FinalPose& result)
 
 void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const {
   const Derivatives at = derivatives(inliers, result.pose);
-  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, at, result.covariance);
+  std::optional<SharedInformation> shared = sharedInformation(inliers, result.pose, features_, groups_);
+  if (shared) correctNoise(at.information, *shared, result);
+  result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, at, shared, result.covariance);
   if (result.isRegular) result.effectiveParameters = (at.information * result.covariance).trace();
+}
+
+// The noise was found for independent errors, where the inliers' squared errors, n of them, are n less the number of parameters. Of
+// errors that are shared the pose takes up more, by tr(C X).
+void LocalOptimizer::correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const {
+  ParameterMatrix covariance;
+  if (!invertInformation(information, covariance)) return;
+  SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
+  result.treatment.leaveOut(errors.rays);
+  const double rays = static_cast<double>(countBelow(errors.rays, result.noise.rays.boundary));
+  const double points = static_cast<double>(countBelow(errors.points, result.noise.points.boundary));
+  const double left = rays + 2 * points - estimated_.parameters();
+  const double excess = std::max(left, 1.) / std::max(left - (covariance * shared.all).trace(), 1.);
+  result.noise.rays.deviation *= std::sqrt(excess);
+  result.noise.points.deviation *= std::sqrt(excess);
+  shared.all = excess * shared.all + (excess - 1) * information;
+  shared.betweenGroups *= excess;
 }
 
 }  // namespace robust

@@ -26,15 +26,15 @@ struct Optimum {
 // The refused rays of its treatment are no inliers, whatever their errors.
 struct FinalPose : Optimum {
   bool isRegular = false;             // the inliers fix all parameters
-  ParameterMatrix covariance = {};    // for this noise, and for errors that groups of inliers share (Jackknife.hpp)
+  ParameterMatrix covariance = {};    // for this noise, and for errors that inliers share (FeatureNoise.hpp, Jackknife.hpp)
   double effectiveParameters = 0;     // tr(H V), H the information for independent errors, V the covariance
   double deviationWithoutLevers = 0;  // of log f, if rays with large leverages are left out
 };
 
 class LocalOptimizer {
  public:
-  // The scorer and the chance model must outlive the optimizer. `groups`: of correspondences that share errors.
-  LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, JackknifeGroups groups, double minFocalLength,
+  // The scorer, the chance model and the features of the scorer's correspondences must outlive the optimizer.
+  LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features, double minFocalLength,
                  double maxFocalLength, Intrinsics estimated = {}, Lens lens = {}, FocalLengthPrior focalLengthPrior = {});
 
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
@@ -79,6 +79,7 @@ class LocalOptimizer {
   // With the noise at this pose.
   Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const;
   void findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const;
+  void correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const;
 
   struct Steps {
     int iterations;
@@ -103,6 +104,7 @@ class LocalOptimizer {
 
   const PoseScorer& scorer_;
   const ChanceModel& chance_;
+  const QueryFeatures& features_;
   JackknifeGroups groups_;
   double minFocalLength_, maxFocalLength_;
   Intrinsics estimated_;

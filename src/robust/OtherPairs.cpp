@@ -21,18 +21,6 @@ constexpr std::size_t kAskers = 256, kPairs = 2048, kMostPartners = 64;
 constexpr std::size_t kAskersOfNeighbours = 32, kNeighbours = 8, kCandidates = 2048;
 constexpr std::uint64_t kPartnerStream = ~std::uint64_t{0} - 2;
 
-struct ImagePoint {
-  double u, v;
-};
-
-std::vector<ImagePoint> imagePoints(const CorrespondenceArrays& arrays) {
-  std::vector<ImagePoint> result;
-  result.reserve(arrays.rays().size() + arrays.points().size());
-  for (const RayMatch& ray : arrays.rays()) result.push_back({ray.u, ray.v});
-  for (const PointMatch& point : arrays.points()) result.push_back({point.u, point.v});
-  return result;
-}
-
 // Candidates of one group in columns, so that the distances to all of them are computed many at once.
 class Candidates {
  public:
@@ -124,7 +112,7 @@ void OtherPairs::setPartner(std::size_t i, std::size_t round, double u, double v
   ++partners.pairs;
 }
 
-OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, std::uint64_t seed) {
+OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed) {
   OtherPairs result(arrays);
   const std::vector<ImagePoint> all = imagePoints(arrays);
   if (all.size() < 2) return result;
@@ -135,8 +123,9 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, std::uint64_t 
     for (std::size_t round = 0; round < partners.u.size(); ++round)
       for (std::size_t i = 0; i < askers; ++i) {
         const auto drawn = static_cast<std::size_t>(random.below(static_cast<int>(all.size()) - 1));
-        const ImagePoint& other = all[drawn + (drawn >= first + i ? 1 : 0)];  // not its own
-        setPartner(i, round, other.u, other.v, partners);
+        const std::size_t other = drawn + (drawn >= first + i ? 1 : 0);  // not itself
+        const bool isOwn = features.numbers()[other] == features.numbers()[first + i];
+        if (!isOwn) setPartner(i, round, all[other].u, all[other].v, partners);
       }
     return partners;
   };

@@ -18,8 +18,9 @@ namespace robust {
 // pairs that have an error below a threshold is counted.
 class OtherPairs {
  public:
-  // Random partners: image points of either kind.
-  static OtherPairs random(const correspondences::CorrespondenceArrays& arrays, std::uint64_t seed);
+  // Random partners: image points of either kind. The own feature's may be drawn, but is no partner.
+  static OtherPairs random(const correspondences::CorrespondenceArrays& arrays, const QueryFeatures& features,
+                           std::uint64_t seed);
   // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
   // pairs have, but nothing agrees inside an object.

@@ -68,9 +68,15 @@ std::vector<char> below(const std::vector<double>& squaredErrors, double thresho
 
 }  // namespace
 
-Significance::Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, int parameters,
-                           std::uint64_t seed)
-    : scorer_(scorer), chance_(chance), sampler_(sampler), parameters_(parameters), seed_(seed), evidence_(scorer.arrays()) {}
+Significance::Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler,
+                           const QueryFeatures& features, int parameters, std::uint64_t seed)
+    : scorer_(scorer),
+      chance_(chance),
+      sampler_(sampler),
+      features_(features),
+      parameters_(parameters),
+      seed_(seed),
+      evidence_(scorer.arrays(), features) {}
 
 void Significance::setSamples(int samples) { logSamples_ = std::log10(samples + 1.); }
 
@@ -93,7 +99,7 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   };
   Shares shares = chance_.levelShares();
   if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
-  if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), seed_);
+  if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_);
   shares = largest(shares, sharesOf(*randomPairs_));
   if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
   if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_);

@@ -29,8 +29,9 @@ static_assert(kLevels * kLevels == 49, "kLogChoices");
 // (Evidence), with the shares of inliers that other pairs of the same data have (OtherPairs) where these are larger.
 class Significance {
  public:
-  // The scorer, the chance model and the sampler must outlive the object. `parameters`: of a pose, as they are fitted to its inliers.
-  Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, int parameters, std::uint64_t seed);
+  // What is given by reference must outlive the object. `parameters`: of a pose, as they are fitted to its inliers.
+  Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, const QueryFeatures& features,
+               int parameters, std::uint64_t seed);
 
   // As above, from now on.
   void setParameters(int parameters) { parameters_ = parameters; }
@@ -60,6 +61,7 @@ class Significance {
   const PoseScorer& scorer_;
   const ChanceModel& chance_;
   const Sampler& sampler_;
+  const QueryFeatures& features_;
   int parameters_;
   std::uint64_t seed_;
   double logSamples_ = 0;

@@ -59,7 +59,7 @@ Estimate estimate(const test::HybridScene& scene) {
   Estimate result;
   const Derivatives at = derivatives(problem, minimum);
   EXPECT_TRUE(invertInformation(at.information, result.byInformation));
-  EXPECT_TRUE(jackknifeCovariance(problem, minimum, groupsOf(scene), at, result.covariance));
+  EXPECT_TRUE(jackknifeCovariance(problem, minimum, groupsOf(scene), at, std::nullopt, result.covariance));
   result.positionError = minimum.position - truth.position;
   return result;
 }
@@ -121,11 +121,11 @@ TEST(Jackknife, IsThatOfTheMinimumAlsoBesideIt) {
     JackknifeGroups groups = groupsOf(scene);
     for (std::size_t k = 0; k < groups.points.size(); ++k)
       if (k % 10 != 0) groups.points[k] = 0;
-    ASSERT_TRUE(jackknifeCovariance(problem, minimum, groups, derivatives(problem, minimum), there));
+    ASSERT_TRUE(jackknifeCovariance(problem, minimum, groups, derivatives(problem, minimum), std::nullopt, there));
     QueryPose pose = minimum;
     pose.focalLength *= 1 + 2 * std::sqrt(there(6, 6));
     pose.position += 2 * std::sqrt(there(5, 5)) * pose.rotation.col(2);
-    ASSERT_TRUE(jackknifeCovariance(problem, pose, groups, derivatives(problem, pose), beside));
+    ASSERT_TRUE(jackknifeCovariance(problem, pose, groups, derivatives(problem, pose), std::nullopt, beside));
     EXPECT_NEAR(std::sqrt(beside(6, 6) / there(6, 6)), 1, 0.3);
   }
 }
@@ -140,7 +140,7 @@ TEST(Jackknife, HasNoResultIfTheInformationHasNoInverse) {
   const LeastSquaresProblem problem = makeProblem(arrays, {}, {});
   const QueryPose truth = arrays.normalization().apply(scene.truth);
   ParameterMatrix covariance;
-  EXPECT_FALSE(jackknifeCovariance(problem, truth, {{0, 1, 2}, {}}, derivatives(problem, truth), covariance));
+  EXPECT_FALSE(jackknifeCovariance(problem, truth, {{0, 1, 2}, {}}, derivatives(problem, truth), std::nullopt, covariance));
 }
 
 }  // namespace

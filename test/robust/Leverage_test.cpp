@@ -131,7 +131,8 @@ TEST(Leverage, OfASingleWrongRaySeldomHoldsAPose) {
     PoseScorer scorer(arrays, {6, 12}, sac::Scoring::Msac);
     scorer.setThresholds({2.5 * kNoise, 2.5 * kNoise});
     const ChanceModel chance(arrays, 6, 12);
-    const LocalOptimizer optimizer(scorer, chance, {}, 0, 1e9);
+    const QueryFeatures features(arrays);
+    const LocalOptimizer optimizer(scorer, chance, features, 0, 1e9);
     const auto squaredError = [&](const FocalPose& pose) { return scorer.squaredRayErrors(pose).back(); };
     const double atMinimum = squaredError(arrays.normalization().apply(rightArrays.normalization().undo(minimum)));
     if (!(atMinimum > 100 * kNoise * kNoise) || std::isinf(atMinimum)) continue;

@@ -37,12 +37,14 @@ struct Data {
                correspondences::allIndices(scene.points.size())),
         scorer(arrays, {40, 60}, sac::Scoring::Msac),
         chance(arrays, 40, 60),
-        optimizer(scorer, chance, {scene.cameras, correspondences::allIndices(scene.points.size())}, 0, 1e9),
+        features(arrays),
+        optimizer(scorer, chance, features, 0, 1e9),
         truth(arrays.normalization().apply(scene.truth)) {}
 
   correspondences::CorrespondenceArrays arrays;
   PoseScorer scorer;
   ChanceModel chance;
+  QueryFeatures features;
   LocalOptimizer optimizer;
   QueryPose truth;
 };

@@ -17,8 +17,10 @@ using robust::Shares;
 struct Data {
   explicit Data(const HybridScene& scene)
       : arrays(scene.adapter(), allIndices(scene.bearings.size()), allIndices(scene.points.size())),
+        features(arrays),
         truth(robust::toPlain(arrays.normalization().apply(scene.truth))) {}
   CorrespondenceArrays arrays;
+  robust::QueryFeatures features;
   robust::PlainPose truth;
 };
 
@@ -43,7 +45,7 @@ TEST(OtherPairs, RandomPairsOfEvenlySpreadPointsAgreeAsOftenAsTheAreaSays) {
     for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(random.uniform(-500, 500), random.uniform(-500, 500), 1);
   const Data data(scene);
   const double threshold = 60;
-  const Shares shares = OtherPairs::random(data.arrays, 1).shares(data.truth, threshold, threshold);
+  const Shares shares = OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, threshold, threshold);
   const double expected = Random::kPi * threshold * threshold / 1e6;
   EXPECT_NEAR(shares.points[0], expected, 0.35 * expected);
   EXPECT_NEAR(shares.points[1], expected / 4, 0.5 * expected / 4);
@@ -53,10 +55,23 @@ TEST(OtherPairs, AllAgreeIfTheImageHasOnlyOnePlace) {
   HybridScene scene = sceneOf(50);
   for (Eigen::Vector3d& point : scene.points) point = Eigen::Vector3d(0.1, 0.2, 0.3) + 1e-4 * (point - scene.points[0]);
   const Eigen::Vector2d place = project(scene.truth, Eigen::Vector3d(0.1, 0.2, 0.3));
+  Random random(testSeed() + 9302);
   for (auto* image : {&scene.image2d2d, &scene.image2d3d})
-    for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(place[0], place[1], 1);
+    for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(place[0] + random.uniform(-1, 1), place[1] + random.uniform(-1, 1), 1);
   const Data data(scene);
-  EXPECT_EQ(OtherPairs::random(data.arrays, 1).shares(data.truth, 6, 12).points[0], 1);
+  EXPECT_EQ(OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, 6, 12).points[0], 1);
+}
+
+// An image point of the own feature agrees with the true pose; it says nothing about accidents.
+TEST(OtherPairs, TheOwnFeatureIsNoRandomPartner) {
+  HybridScene scene = sceneOf(20);
+  const HybridScene once = scene;
+  for (int copy = 0; copy < 9; ++copy) {
+    scene.points.insert(scene.points.end(), once.points.begin(), once.points.end());
+    scene.image2d3d.insert(scene.image2d3d.end(), once.image2d3d.begin(), once.image2d3d.end());
+  }
+  const Data data(scene);
+  EXPECT_EQ(OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, 0.1, 0.1).points[0], 0);
 }
 
 // Neighbours see the image points of points near to them: at the true pose as far away as those are.
@@ -64,7 +79,7 @@ TEST(OtherPairs, NeighboursAgreeWhereTheyAreNearer) {
   HybridScene scene = sceneOf(400);
   const Data data(scene);
   const robust::Evidence evidence(data.arrays);
-  const Shares random = OtherPairs::random(data.arrays, 1).shares(data.truth, 100, 100);
+  const Shares random = OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, 100, 100);
   const Shares neighbours = OtherPairs::ofNeighbours(data.arrays, evidence).shares(data.truth, 100, 100);
   EXPECT_GT(neighbours.points[0], 3 * random.points[0]);
   EXPECT_GT(neighbours.rays[0], random.rays[0]);
@@ -86,7 +101,7 @@ TEST(OtherPairs, FewOrNoCorrespondencesHaveNoShares) {
   for (const int count : {0, 1}) {
     HybridScene scene = sceneOf(count);
     const Data data(scene);
-    const Shares random = OtherPairs::random(data.arrays, 1).shares(data.truth, 6, 12);
+    const Shares random = OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, 6, 12);
     const Shares neighbours = OtherPairs::ofNeighbours(data.arrays, robust::Evidence(data.arrays)).shares(data.truth, 6, 12);
     EXPECT_LE(random.points[0], 1);
     EXPECT_EQ(neighbours.points[0], 0);
@@ -96,8 +111,8 @@ TEST(OtherPairs, FewOrNoCorrespondencesHaveNoShares) {
 
 TEST(OtherPairs, TheSameSeedDrawsTheSamePartners) {
   const Data data(sceneOf(300));
-  const Shares a = OtherPairs::random(data.arrays, 5).shares(data.truth, 6, 12),
-               b = OtherPairs::random(data.arrays, 5).shares(data.truth, 6, 12);
+  const Shares a = OtherPairs::random(data.arrays, data.features, 5).shares(data.truth, 6, 12),
+               b = OtherPairs::random(data.arrays, data.features, 5).shares(data.truth, 6, 12);
   EXPECT_EQ(a.rays, b.rays);
   EXPECT_EQ(a.points, b.points);
 }

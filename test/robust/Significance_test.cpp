@@ -47,7 +47,8 @@ class SignificanceTest : public testing::Test {
   PoseScorer scorer{arrays, {4, 6}, sac::Scoring::Msac};
   Sampler sampler{scene.cameras, correspondences::allIndices(kRays), correspondences::allIndices(kPoints), false};
   ChanceModel chance{arrays, 4, 6};
-  Significance significance{scorer, chance, sampler, 7, 1};
+  QueryFeatures features{arrays};
+  Significance significance{scorer, chance, sampler, features, 7, 1};
 };
 
 TEST_F(SignificanceTest, GrowsWithTheInliersOfEitherKind) {

@@ -53,6 +53,14 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
   /// Quality of 2D-3D correspondence `index`, larger is better (the default is 1 for all). Only the order matters.
   virtual double getWeight2d3d(std::size_t index) const;
 
+  /// Number of the query's feature (keypoint) from which 2D-2D correspondence `index` comes; negative if it is not known (the default).
+  /// The correspondences of one feature, of both kinds, share its error: one keypoint that is matched in five map images has been
+  /// measured once. So they count as one accident where a pose is told from chance, and the covariance allows for what they share.
+  /// Equal image points count as one feature without a number, too. Any numbers will do; only which are equal matters.
+  virtual int getFeature2d2d(std::size_t index) const;
+  /// The same of 2D-3D correspondence `index`. Both kinds use the same numbers.
+  virtual int getFeature2d3d(std::size_t index) const;
+
  protected:
   HybridAdapterBase() = default;
   HybridAdapterBase(const HybridAdapterBase&) = default;

@@ -59,6 +59,8 @@ struct ImageShiftSums {
   double alongU[kMostParameters] = {}, alongV[kMostParameters] = {};
 };
 
+constexpr std::size_t kRayRow = 1 + kMostParameters + 2, kPointRow = 1 + 2 * kMostParameters;
+
 // One instruction set's versions. Ranges [begin, end) begin at a multiple of correspondences::kPadding and end at one or at the arrays' size.
 struct Kernels {
   // Squared errors; infinite as reprojectionError and sampsonError are. `errors` has room for the padding.
@@ -74,6 +76,11 @@ struct Kernels {
   void (*addRayShifts)(const RayArrays&, const PlainPose&, const KindLoss&, ImageShiftSums&);
   // W J C J^T of every ray, C a symmetric matrix of kMostParameters rows. `leverages` has room for the padding.
   void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
+  // The weights and derivatives of every correspondence, as columns of the padded size: kRayRow of rays, namely the weight W, the
+  // derivatives of the error by the parameters and by the image point (u, v); kPointRow of points, namely the weight and the derivatives
+  // of the error along u, then along v, by the parameters. Where the weight is 0 they need not be finite.
+  void (*rayRows)(const RayArrays&, const PlainPose&, const KindLoss&, double* columns);
+  void (*pointRows)(const PointArrays&, const PlainPose&, const KindLoss&, double* columns);
 };
 
 enum class CameraModel { Pinhole, Radial };

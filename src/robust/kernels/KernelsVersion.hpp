@@ -6,6 +6,7 @@
 #include "robust/kernels/PointEquations.hpp"
 #include "robust/kernels/Radial.hpp"
 #include "robust/kernels/RayEquations.hpp"
+#include "robust/kernels/Rows.hpp"
 #include "robust/kernels/Scores.hpp"
 
 namespace hybridgv {
@@ -14,9 +15,17 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 
 template <class Camera>
 constexpr Kernels makeKernels() {
-  return {&squaredPointErrors<Camera>, &squaredRayErrors<Camera>, &scorePoints<Camera>,
-          &scoreRays<Camera>,          &addPoints<Camera>,        &addRays<Camera>,
-          &addPointShifts<Camera>,     &addRayShifts<Camera>,     &rayLeverages<Camera>};
+  return {&squaredPointErrors<Camera>,
+          &squaredRayErrors<Camera>,
+          &scorePoints<Camera>,
+          &scoreRays<Camera>,
+          &addPoints<Camera>,
+          &addRays<Camera>,
+          &addPointShifts<Camera>,
+          &addRayShifts<Camera>,
+          &rayLeverages<Camera>,
+          &rayRows,
+          &pointRows};
 }
 
 extern const Kernels kPinholeKernels, kRadialKernels;

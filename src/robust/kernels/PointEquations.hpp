@@ -8,7 +8,7 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-// Calls body(point, weight) for all points, kWidth at a time, of which some have a weight.
+// Calls body(i, point, weight) for all points from the i-th on, kWidth at a time, of which some have a weight.
 template <class Camera, class Body>
 HYBRIDGV_INLINE void forWeightedPoints(const PointArrays& points, const typename Camera::Pose& pose, CostSum& cost, Body body) {
   forRangeOfLongBody(0, points.size, [&](std::size_t i, DoubleMask inRange) {
@@ -22,7 +22,7 @@ HYBRIDGV_INLINE void forWeightedPoints(const PointArrays& points, const typename
            select<Doubles>(valid, y.z, broadcast<Doubles>(1))};
       point.project(points, i, pose);
     }
-    body(point, weight);
+    body(i, point, weight);
   });
 }
 
@@ -33,7 +33,7 @@ static void addPoints(const PointArrays& points, const PlainPose& plainPose, con
   const Doubles inverseFocal = broadcast<Doubles>(1 / plainPose.focalLength);
   CostSum cost(loss);
   typename Camera::PointSums sums;
-  forWeightedPoints<Camera>(points, pose, cost, [&](const typename Camera::Point& point, Doubles weight) {
+  forWeightedPoints<Camera>(points, pose, cost, [&](std::size_t, const typename Camera::Point& point, Doubles weight) {
     sums.add(point, inverseFocal, pose, weight);
   });
   total.cost += cost.total();
@@ -48,7 +48,7 @@ static void addPointShifts(const PointArrays& points, const PlainPose& plainPose
   const Doubles inverseFocal = broadcast<Doubles>(1 / plainPose.focalLength), seen = broadcast<Doubles>(-1), unchanged{};
   CostSum cost(loss);
   typename Camera::PointSums alongU, alongV;
-  forWeightedPoints<Camera>(points, pose, cost, [&](typename Camera::Point point, Doubles weight) {
+  forWeightedPoints<Camera>(points, pose, cost, [&](std::size_t, typename Camera::Point point, Doubles weight) {
     point.errorU = seen;
     point.errorV = unchanged;
     alongU.add(point, inverseFocal, pose, weight);

@@ -10,7 +10,7 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-// Calls body(ray, variance, derivatives, weight) for all rays, kWidth at a time, of which some have a weight.
+// Calls body(i, ray, variance, derivatives, weight) for all rays from the i-th on, kWidth at a time, of which some have a weight.
 template <class Camera, class Body>
 HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& plainPose, const typename Camera::Pose& pose,
                                      const KindLoss& loss, CostSum& cost, Body body) {
@@ -24,7 +24,7 @@ HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& pla
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
     Row<Camera::kParameters> derivatives;
     differentiate(ray, variance, pose, derivatives);
-    body(ray, variance, derivatives, weight / variance);
+    body(i, ray, variance, derivatives, weight / variance);
   });
 }
 
@@ -35,7 +35,7 @@ static void addRays(const RayArrays& rays, const PlainPose& plainPose, const Kin
   CostSum cost(loss);
   NormalEquationsSum<Camera::kParameters> sums;
   forWeightedRays<Camera>(rays, plainPose, pose, loss, cost,
-                          [&](const typename Camera::Ray& ray, Doubles, const Row<Camera::kParameters>& derivatives,
+                          [&](std::size_t, const typename Camera::Ray& ray, Doubles, const Row<Camera::kParameters>& derivatives,
                               Doubles weight) { sums.add(derivatives, ray.constraint, weight); });
   total.cost += cost.total();
   sums.addTo(total);
@@ -47,15 +47,15 @@ static void addRayShifts(const RayArrays& rays, const PlainPose& plainPose, cons
   const typename Camera::Pose pose(plainPose);
   CostSum cost(loss);
   Doubles alongU[Camera::kParameters] = {}, alongV[Camera::kParameters] = {};
-  forWeightedRays<Camera>(
-      rays, plainPose, pose, loss, cost,
-      [&](const typename Camera::Ray& ray, Doubles variance, const Row<Camera::kParameters>& derivatives, Doubles weight) {
-        const ImageDerivatives change = differentiateByImage(ray, variance, pose);
-        for (int row = 0; row < Camera::kParameters; ++row) {
-          alongU[row] += weight * derivatives[row] * change.byU;
-          alongV[row] += weight * derivatives[row] * change.byV;
-        }
-      });
+  forWeightedRays<Camera>(rays, plainPose, pose, loss, cost,
+                          [&](std::size_t, const typename Camera::Ray& ray, Doubles variance,
+                              const Row<Camera::kParameters>& derivatives, Doubles weight) {
+                            const ImageDerivatives change = differentiateByImage(ray, variance, pose);
+                            for (int row = 0; row < Camera::kParameters; ++row) {
+                              alongU[row] += weight * derivatives[row] * change.byU;
+                              alongV[row] += weight * derivatives[row] * change.byV;
+                            }
+                          });
   for (int row = 0; row < Camera::kParameters; ++row) {
     total.alongU[row] += sum(alongU[row]);
     total.alongV[row] += sum(alongV[row]);

@@ -35,6 +35,11 @@ class HYBRIDGV_EXPORT NoncentralHybridAdapter : public hybrid_pose::HybridAdapte
   void setRigFocalLengths(std::vector<double> focalLengths);
   /// Qualities of the correspondences, larger is better; an empty list means 1 for all.
   void setWeights(std::vector<double> weights2d2d, std::vector<double> weights2d3d);
+  /// Numbers of the query's features (keypoints) from which the correspondences come, the same numbers for both kinds; negative where
+  /// it is not known, an empty list where it is for none; see getFeature2d2d.
+  ///
+  /// \throws std::invalid_argument for a list that has neither an entry for every correspondence nor none.
+  void setFeatures(std::vector<int> features2d2d, std::vector<int> features2d3d);
 
   std::size_t getNumberCorrespondences2d2d() const override;
   Eigen::Vector3d getImagePoint2d2d(std::size_t index) const override;
@@ -50,6 +55,9 @@ class HYBRIDGV_EXPORT NoncentralHybridAdapter : public hybrid_pose::HybridAdapte
   Eigen::Vector3d getPoint(std::size_t index) const override;
   double getWeight2d3d(std::size_t index) const override;
 
+  int getFeature2d2d(std::size_t index) const override;
+  int getFeature2d3d(std::size_t index) const override;
+
  private:
   Vectors imagePoints2d2d_, bearingVectors_;
   std::vector<int> camIndices_;
@@ -57,6 +65,7 @@ class HYBRIDGV_EXPORT NoncentralHybridAdapter : public hybrid_pose::HybridAdapte
   Matrices camRotations_;
   Vectors imagePoints2d3d_, points_;
   std::vector<double> rigFocalLengths_, weights2d2d_, weights2d3d_;
+  std::vector<int> features2d2d_, features2d3d_;
 };
 
 }  // namespace hybridgv
