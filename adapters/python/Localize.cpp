@@ -2,7 +2,9 @@
 #include <hybridgv/adapters/NoncentralHybridAdapter.hpp>
 #include <hybridgv/adapters/sfm/QueryCamera.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "Module.hpp"
@@ -51,6 +53,22 @@ std::vector<double> selectedWeights(const char* name, const py::object& weights,
   checkCount(name, all.size(), "the correspondences", static_cast<py::ssize_t>(points.count));
   std::vector<double> result;
   for (const std::size_t i : points.kept) result.push_back(all.data()[i]);
+  return result;
+}
+
+// The same of numbers of keypoints.
+std::vector<int> selectedKeypoints(const char* name, const py::object& keypoints, const ImagePoints& points) {
+  if (keypoints.is_none()) return {};
+  const IndexArray all = indicesOf(name, keypoints, 0);
+  checkCount(name, all.size(), "the correspondences", static_cast<py::ssize_t>(points.count));
+  std::vector<int> result;
+  for (const std::size_t i : points.kept) {
+    const long long keypoint = all.data()[i];
+    if (keypoint > std::numeric_limits<int>::max())
+      throw std::invalid_argument(std::string(name) + "[" + std::to_string(i) + "] is " + std::to_string(keypoint) +
+                                  ", at most 2^31 - 1 is possible");
+    result.push_back(static_cast<int>(std::max(keypoint, -1LL)));
+  }
   return result;
 }
 
@@ -155,7 +173,8 @@ sac::HybridRansacOptions searchOptions(const sfm::QueryOptions& options, const s
 py::dict localize(const py::object& points2D, const py::object& points3D, const py::object& points2DRays,
                   const py::object& rayDirections, const py::object& rayOrigins, const py::object& cameraIndices,
                   const py::object& rigFocalLengths, const py::object& weights, const py::object& weightsRays,
-                  const py::tuple& cameraTuple, const std::string& cameraKnowledge, const py::dict& optionDict) {
+                  const py::object& keypoints, const py::object& keypointsRays, const py::tuple& cameraTuple,
+                  const std::string& cameraKnowledge, const py::dict& optionDict) {
   const sfm::Camera camera = cameraOf(cameraTuple);
   const CameraKnowledge knowledge = knowledgeOf(cameraKnowledge);
   const sac::HybridRansacOptions options = searchOptions(optionsOf(optionDict), camera, knowledge);
@@ -168,6 +187,8 @@ py::dict localize(const py::object& points2D, const py::object& points3D, const 
   NoncentralHybridAdapter adapter = adapterOf(rayPoints, rays, points, std::move(positions));
   adapter.setRigFocalLengths(rays.rig.focalLengths);
   adapter.setWeights(selectedWeights("weights_rays", weightsRays, rayPoints), selectedWeights("weights", weights, points));
+  adapter.setFeatures(selectedKeypoints("keypoint_idxs_rays", keypointsRays, rayPoints),
+                      selectedKeypoints("keypoint_idxs", keypoints, points));
   sac::HybridRansacResult result;
   {
     const py::gil_scoped_release release;
@@ -217,7 +238,8 @@ py::tuple bearingVectors(const py::object& points2D, const py::tuple& cameraTupl
 void addLocalize(py::module_& module) {
   module.def("localize", &localize, py::arg("points2D"), py::arg("points3D"), py::arg("points2D_rays"), py::arg("ray_directions"),
              py::arg("ray_origins"), py::arg("camera_idxs"), py::arg("rig_focal_lengths"), py::arg("weights"),
-             py::arg("weights_rays"), py::arg("camera"), py::arg("camera_knowledge"), py::arg("options"));
+             py::arg("weights_rays"), py::arg("keypoint_idxs"), py::arg("keypoint_idxs_rays"), py::arg("camera"),
+             py::arg("camera_knowledge"), py::arg("options"));
   module.def("default_options", [] { return dictOf(sfm::QueryOptions()); });
   module.def("undistort", &undistortPixels, py::arg("points2D"), py::arg("camera"));
   module.def("distort", &distortPoints, py::arg("points2D"), py::arg("camera"));

@@ -164,6 +164,12 @@ std::vector<std::size_t> rigOf(const Matches& matches) {
   return rig;
 }
 
+std::vector<int> featuresOf(const std::vector<std::size_t>& keypoints) {
+  std::vector<int> features(keypoints.size());
+  std::transform(keypoints.begin(), keypoints.end(), features.begin(), [](std::size_t k) { return static_cast<int>(k); });
+  return features;
+}
+
 LocalizationProblem toProblem(const SparseModel& model, const Matches& matches) {
   std::vector<std::size_t> rig = rigOf(matches);
   NoncentralHybridAdapter::Vectors centres, imagePoints2d2d, bearings, imagePoints2d3d, positions;
@@ -194,6 +200,7 @@ LocalizationProblem toProblem(const SparseModel& model, const Matches& matches) 
   NoncentralHybridAdapter adapter(imagePoints2d2d, bearings, camIndices, centres, rotations, imagePoints2d3d, positions);
   adapter.setRigFocalLengths(focalLengths);
   adapter.setWeights(weights2d2d, weights2d3d);
+  adapter.setFeatures(featuresOf(keypoints2d2d), featuresOf(keypoints2d3d));
   const std::vector<bool> none2d2d(points2d2d.size()), none2d3d(points2d3d.size());
   LocalizationProblem problem{
       "", adapter, std::nullopt, std::move(rig), std::move(points2d2d), std::move(points2d3d), none2d2d, none2d3d, {}, {}, {}};

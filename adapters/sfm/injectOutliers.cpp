@@ -27,8 +27,33 @@ std::vector<std::size_t> choose(std::size_t first, std::size_t count, double sha
   return entries;
 }
 
-// The adapter with other image points: first those of the 2D-2D correspondences, then those of the 2D-3D ones.
-NoncentralHybridAdapter withImagePoints(const NoncentralHybridAdapter& adapter, const Vectors& imagePoints) {
+// The query's image points with the numbers of their features: first those of the 2D-2D correspondences, then those of the 2D-3D ones.
+struct QueryPoints {
+  Vectors points;
+  std::vector<int> features;
+
+  // Those from `begin` to before `end`.
+  QueryPoints part(std::size_t begin, std::size_t end) const {
+    const auto from = static_cast<std::ptrdiff_t>(begin), to = static_cast<std::ptrdiff_t>(end);
+    return {{points.begin() + from, points.begin() + to}, {features.begin() + from, features.begin() + to}};
+  }
+};
+
+QueryPoints queryPointsOf(const NoncentralHybridAdapter& adapter) {
+  QueryPoints result;
+  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d2d(); ++i) {
+    result.points.push_back(adapter.getImagePoint2d2d(i));
+    result.features.push_back(adapter.getFeature2d2d(i));
+  }
+  for (std::size_t i = 0; i < adapter.getNumberCorrespondences2d3d(); ++i) {
+    result.points.push_back(adapter.getImagePoint2d3d(i));
+    result.features.push_back(adapter.getFeature2d3d(i));
+  }
+  return result;
+}
+
+// The adapter with other image points.
+NoncentralHybridAdapter withQueryPoints(const NoncentralHybridAdapter& adapter, const QueryPoints& queryPoints) {
   const std::size_t rays = adapter.getNumberCorrespondences2d2d();
   Vectors bearings, centres, points;
   NoncentralHybridAdapter::Matrices rotations;
@@ -52,11 +77,11 @@ NoncentralHybridAdapter withImagePoints(const NoncentralHybridAdapter& adapter, 
     points.push_back(adapter.getPoint(i));
     weights2d3d.push_back(adapter.getWeight2d3d(i));
   }
-  const auto split = imagePoints.begin() + static_cast<std::ptrdiff_t>(rays);
-  NoncentralHybridAdapter result(Vectors(imagePoints.begin(), split), bearings, camIndices, centres, rotations,
-                                 Vectors(split, imagePoints.end()), points);
+  const QueryPoints ofRays = queryPoints.part(0, rays), ofPoints = queryPoints.part(rays, queryPoints.points.size());
+  NoncentralHybridAdapter result(ofRays.points, bearings, camIndices, centres, rotations, ofPoints.points, points);
   result.setRigFocalLengths(focalLengths);
   result.setWeights(weights2d2d, weights2d3d);
+  result.setFeatures(ofRays.features, ofPoints.features);
   return result;
 }
 
@@ -73,22 +98,21 @@ LocalizationProblem injectOutliers(const LocalizationProblem& problem, double sh
   shuffleFront(chosen, chosen.size(), random);
   if (chosen.size() < 2) return problem;
 
-  Vectors original;
-  for (std::size_t i = 0; i < rays; ++i) original.push_back(problem.adapter.getImagePoint2d2d(i));
-  for (std::size_t i = 0; i < points; ++i) original.push_back(problem.adapter.getImagePoint2d3d(i));
-  Vectors permuted = original;
+  const QueryPoints original = queryPointsOf(problem.adapter);
+  QueryPoints permuted = original;
   LocalizationProblem result = problem;
   result.isOutlier2d2d.resize(rays);
   result.isOutlier2d3d.resize(points);
   for (std::size_t i = 0; i < chosen.size(); ++i) {  // one cycle through all chosen ones: none keeps its own
-    const std::size_t to = chosen[i];
-    permuted[to] = original[chosen[(i + 1) % chosen.size()]];
+    const std::size_t to = chosen[i], from = chosen[(i + 1) % chosen.size()];
+    permuted.points[to] = original.points[from];
+    permuted.features[to] = original.features[from];
     if (to < rays)
       result.isOutlier2d2d[to] = true;
     else
       result.isOutlier2d3d[to - rays] = true;
   }
-  result.adapter = withImagePoints(problem.adapter, permuted);
+  result.adapter = withQueryPoints(problem.adapter, permuted);
   return result;
 }
 

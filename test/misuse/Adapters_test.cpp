@@ -85,7 +85,7 @@ TEST(Misuse, NoncentralAdapterRefusesImpossibleValues) {
   expectWrong("zero", "camRotations[1]", [](Arguments& a) { a.camRotations[1].setZero(); });
 }
 
-TEST(Misuse, NoncentralAdapterRefusesWrongFocalLengthsAndWeights) {
+TEST(Misuse, NoncentralAdapterRefusesWrongFocalLengthsWeightsAndFeatures) {
   NoncentralHybridAdapter adapter = Arguments().adapter();
   for (const std::size_t count : {0, 1, 3}) {
     const std::vector<double> wrong(count, 1);
@@ -93,6 +93,9 @@ TEST(Misuse, NoncentralAdapterRefusesWrongFocalLengthsAndWeights) {
     if (count == 0) continue;  // no weights: all equal
     expectRefused("count", "weights2d2d", [&] { adapter.setWeights(wrong, {}); });
     expectRefused("count", "weights2d3d", [&] { adapter.setWeights({}, wrong); });
+    const std::vector<int> wrongFeatures(count, 1);
+    expectRefused("count", "features2d2d", [&] { adapter.setFeatures(wrongFeatures, {}); });
+    expectRefused("count", "features2d3d", [&] { adapter.setFeatures({}, wrongFeatures); });
   }
   for (const double value : notFinite()) {
     expectRefused("value", "focalLengths[1]", [&] { adapter.setRigFocalLengths({1, value}); });

@@ -209,6 +209,28 @@ def test_rays_by_camera_indices(scene, camera):
         hybridgv.localize(*scene.arrays[:4], camera=camera)
 
 
+def test_keypoints(scene, camera):
+    points2D, points3D, points2D_rays, ray_directions, ray_origins = scene.arrays
+    rays, points = np.arange(80), 80 + np.arange(60)
+    once = hybridgv.localize(*scene.arrays, camera=camera)
+    numbered = hybridgv.localize(*scene.arrays, camera=camera, keypoint_idxs=points, keypoint_idxs_rays=rays)
+    assert numbered.focal_length_std == once.focal_length_std
+    twice = [np.concatenate([a, a]) for a in scene.arrays]
+    twice[0] = twice[0] + np.concatenate([np.zeros((60, 2)), np.full((60, 2), 0.01)])  # no longer equal
+    twice[2] = twice[2] + np.concatenate([np.zeros((80, 2)), np.full((80, 2), 0.01)])
+    numbers = {"keypoint_idxs": np.tile(points, 2), "keypoint_idxs_rays": np.tile(rays, 2)}
+    assert hybridgv.localize(*twice, camera=camera, **numbers).focal_length_std == pytest.approx(once.focal_length_std, rel=0.15)
+    assert hybridgv.localize(*twice, camera=camera).focal_length_std < 0.85 * once.focal_length_std
+    none = hybridgv.localize(*scene.arrays, camera=camera, keypoint_idxs=np.full(60, -1))
+    assert none.focal_length_std == once.focal_length_std
+    with pytest.raises(ValueError, match="keypoint_idxs has the length 59"):
+        hybridgv.localize(*scene.arrays, camera=camera, keypoint_idxs=points[1:])
+    with pytest.raises(ValueError, match=r"keypoint_idxs_rays\[3\] is 4294967296"):
+        hybridgv.localize(*scene.arrays, camera=camera, keypoint_idxs_rays=np.where(rays == 3, 2**32, rays))
+    with pytest.raises(ValueError, match="keypoint_idxs is not an array of integers"):
+        hybridgv.localize(*scene.arrays, camera=camera, keypoint_idxs=points + 0.5)
+
+
 def test_weights(scene, camera):
     weights = np.linspace(1, 0, 60)
     assert_right(hybridgv.localize(*scene.arrays, camera=camera, weights=weights, weights_rays=np.ones(80)), scene)

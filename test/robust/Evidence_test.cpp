@@ -76,6 +76,29 @@ TEST(Evidence, CountsAFeatureWithManyMatchesOnce) {
   expectSupport(supportOf(scene), 10, 5);
 }
 
+// Every four correspondences of a kind are of one feature, which is seen at slightly different places.
+TEST(Evidence, CountsAFeatureOnceByItsNumberAlsoWhereItsImagePointsDiffer) {
+  HybridScene scene = sceneOf(40, 20);
+  spreadImagePoints(scene);
+  NoncentralHybridAdapter adapter = scene.adapter();
+  std::vector<int> ofRays, ofPoints;
+  for (int i = 0; i < 40; ++i) ofRays.push_back(i / 4);
+  for (int i = 0; i < 20; ++i) ofPoints.push_back(100 + i / 4);
+  adapter.setFeatures(ofRays, ofPoints);
+  const CorrespondenceArrays arrays(adapter, allIndices(40), allIndices(20));
+  expectSupport(Evidence(arrays).support(allInliers(scene)), 10, 5);
+}
+
+TEST(Evidence, CountsFeaturesAtOnePlaceOnceWhateverTheirNumbers) {
+  HybridScene scene = sceneOf(0, 20);
+  spreadImagePoints(scene);
+  for (std::size_t i = 1; i < 20; i += 2) scene.image2d3d[i] = scene.image2d3d[i - 1] + Eigen::Vector3d(0, 0.5, 0);
+  NoncentralHybridAdapter adapter = scene.adapter();
+  adapter.setFeatures({}, allIndices(20));
+  const CorrespondenceArrays arrays(adapter, {}, allIndices(20));
+  expectSupport(Evidence(arrays).support(allInliers(scene)), 0, 10);
+}
+
 TEST(Evidence, DoesNotCountARayOfAFeatureThatAnInlierPointHasUsed) {
   HybridScene scene = sceneOf(20, 20);
   spreadImagePoints(scene);

@@ -294,6 +294,70 @@ TEST(Kernels, LeveragesAreEqualAtAllLevels) {
   }
 }
 
+// The rows of the rays or of the points, their columns one after the other, and the number of rows of each.
+struct Rows {
+  Rows(std::size_t size, std::size_t columns) : length(correspondences::padded(size)), values(columns * length) {}
+  double operator()(std::size_t row, std::size_t column) const { return values[column * length + row]; }
+
+  std::size_t length;
+  std::vector<double> values;
+};
+
+// J^T W J of one row, with its derivatives in the columns from `first` on.
+void addRow(const Rows& rows, std::size_t row, std::size_t first, int parameters, NormalEquations& sums) {
+  for (int i = 0; i < parameters; ++i)
+    for (int k = i; k < parameters; ++k)
+      sums.hessian[i][k] +=
+          rows(row, 0) * rows(row, first + static_cast<std::size_t>(i)) * rows(row, first + static_cast<std::size_t>(k));
+}
+
+void expectSameHessian(const NormalEquations& actual, const NormalEquations& expected, int parameters) {
+  for (int i = 0; i < parameters; ++i)
+    for (int k = i; k < parameters; ++k) {
+      const double scale = std::sqrt(expected.hessian[i][i] * expected.hessian[k][k]);
+      EXPECT_NEAR(actual.hessian[i][k], expected.hessian[i][k], 1e-9 * scale) << i << ", " << k;
+    }
+}
+
+TEST(Kernels, RowsAddUpToTheNormalEquationsAtEveryLevel) {
+  test::Random random(test::testSeed(), 24);
+  const Data data(random, 61, 63);
+  for (const Model& model : models())
+    for (const double distortion : model.distortions)
+      for (const Loss loss : kLosses)
+        for (const SimdLevel level : levels()) {
+          const Kernels& tested = kernels(level, model.model);
+          const QueryPose pose = withDistortion(data.normalized(data.poses[0]), distortion);
+          const KindLoss spec{loss, 20, 0.5, 50};
+          Rows rays(61, kRayRow), points(63, kPointRow);
+          tested.rayRows(data.arrays.rayArrays(), toPlain(pose), spec, rays.values.data());
+          tested.pointRows(data.arrays.pointArrays(), toPlain(pose), spec, points.values.data());
+          NormalEquations ofRays, ofPoints;
+          ImageShiftSums shifts, expectedShifts;
+          for (std::size_t i = 0; i < 61; ++i) {
+            if (!(rays(i, 0) > 0)) continue;
+            addRow(rays, i, 1, parametersOf(model.model), ofRays);
+            for (std::size_t k = 0; k < 7; ++k) {
+              shifts.alongU[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, kRayRow - 2);
+              shifts.alongV[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, kRayRow - 1);
+            }
+          }
+          for (std::size_t i = 0; i < 63; ++i) {
+            if (!(points(i, 0) > 0)) continue;
+            addRow(points, i, 1, parametersOf(model.model), ofPoints);
+            addRow(points, i, 1 + kMostParameters, parametersOf(model.model), ofPoints);
+          }
+          expectSameHessian(ofRays, sums(tested, data, pose, spec, false, true), parametersOf(model.model));
+          expectSameHessian(ofPoints, sums(tested, data, pose, spec, true, false), parametersOf(model.model));
+          tested.addRayShifts(data.arrays.rayArrays(), toPlain(pose), spec, expectedShifts);
+          for (std::size_t k = 0; k < 7; ++k) {
+            const double scale = 1e-9 * std::sqrt(61 * ofRays.hessian[k][k]);
+            EXPECT_NEAR(shifts.alongU[k], expectedShifts.alongU[k], scale);
+            EXPECT_NEAR(shifts.alongV[k], expectedShifts.alongV[k], scale);
+          }
+        }
+}
+
 // With one ray J^T J is the square of the error's derivative, which the Sampson denominator enters.
 TEST(Kernels, OneRaysInformationIsTheSquareOfTheCentralDifferenceOfItsError) {
   test::Random random(test::testSeed(), 15);

@@ -89,7 +89,8 @@ TEST_F(SignificanceTest, RaysOfOneCameraAloneDoNotFixTheScale) {
   const correspondences::CorrespondenceArrays oneCamera(onlyOneCamera, correspondences::allIndices(kRays),
                                                         correspondences::allIndices(kPoints));
   const PoseScorer oneCameraScorer(oneCamera, {4, 6}, sac::Scoring::Msac);
-  Significance ofOneCamera(oneCameraScorer, chance, sampler, 7, 1);
+  const QueryFeatures oneCameraFeatures(oneCamera);
+  Significance ofOneCamera(oneCameraScorer, chance, sampler, oneCameraFeatures, 7, 1);
   const QueryPose pose = oneCamera.normalization().apply(scene.truth);
   const PerKind<std::vector<char>> masks = oneCameraScorer.inliers(pose);
   EXPECT_NE(ofOneCamera.verdict(pose, oneCameraScorer.evaluate(pose), sampler.count(masks.rays, masks.points), true),

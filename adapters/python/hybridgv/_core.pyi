@@ -22,6 +22,8 @@ def localize(
     rig_focal_lengths: Optional[ArrayLike],
     weights: Optional[ArrayLike],
     weights_rays: Optional[ArrayLike],
+    keypoint_idxs: Optional[ArrayLike],
+    keypoint_idxs_rays: Optional[ArrayLike],
     camera: Parts,
     camera_knowledge: str,
     options: Dict[str, Any],

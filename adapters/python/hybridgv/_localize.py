@@ -27,6 +27,8 @@ def localize(
     rig_focal_lengths: Optional[ArrayLike] = None,
     weights: Optional[ArrayLike] = None,
     weights_rays: Optional[ArrayLike] = None,
+    keypoint_idxs: Optional[ArrayLike] = None,
+    keypoint_idxs_rays: Optional[ArrayLike] = None,
     options: Union[None, Options, Mapping[str, Any]] = None,
 ) -> Result:
     """Finds pose, focal length and lens distortion of an image from 2D-3D and 2D-2D correspondences with outliers.
@@ -49,6 +51,9 @@ def localize(
         camera_idxs: (M,) row of ray_origins of each ray
         rig_focal_lengths: one for each row of ray_origins [px], 0 = unknown: they weigh the map image's part of an error
         weights, weights_rays: (N,), (M,) quality of each correspondence, larger is better; only their order matters
+        keypoint_idxs, keypoint_idxs_rays: (N,), (M,) number of the image's keypoint from which each correspondence comes, -1 where
+            it is not known. A keypoint that is matched in several map images is one measurement: what its correspondences share is in
+            the standard deviations. Without numbers, equal pixels are one keypoint.
         options: hybridgv.Options or a dict with some of its keys
 
     Raises:
@@ -65,6 +70,8 @@ def localize(
             rig_focal_lengths,
             weights,
             weights_rays,
+            keypoint_idxs,
+            keypoint_idxs_rays,
             parts_of(camera),
             camera_knowledge,
             dict_of(options),

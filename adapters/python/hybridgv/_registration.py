@@ -65,7 +65,7 @@ def register_images(
 
 def _unread(name: str, reason: str) -> QueryResult:
     """The result of an image that cannot be read: that of one without matches."""
-    values = _core.localize([], [], None, None, None, None, None, None, None, ("SIMPLE_RADIAL", 1, 1, []), "unknown", {})
+    values = _core.localize([], [], None, None, None, None, None, None, None, None, None, ("SIMPLE_RADIAL", 1, 1, []), "unknown", {})
     values.update(name=name, failure_reason=reason, keypoint_idxs=[], point3D_ids=[], keypoint_idxs_rays=[])
     values.update(image_names_rays=[], pairs=[], left_out={}, notes=[], distortion_is_lost=False)
     return QueryResult(values)

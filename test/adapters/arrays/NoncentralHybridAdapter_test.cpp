@@ -58,6 +58,19 @@ TEST(NoncentralHybridAdapter, TellsFocalLengthsAndWeights) {
   EXPECT_EQ(adapter.getWeight2d3d(0), 0.3);
 }
 
+TEST(NoncentralHybridAdapter, TellsFeatures) {
+  NoncentralHybridAdapter adapter = Lists().adapter();
+  EXPECT_LT(adapter.getFeature2d2d(1), 0);
+  EXPECT_LT(adapter.getFeature2d3d(0), 0);
+  adapter.setFeatures({5, -1}, {7});
+  EXPECT_EQ(adapter.getFeature2d2d(0), 5);
+  EXPECT_EQ(adapter.getFeature2d2d(1), -1);
+  EXPECT_EQ(adapter.getFeature2d3d(0), 7);
+  adapter.setFeatures({}, {8});
+  EXPECT_LT(adapter.getFeature2d2d(0), 0);
+  EXPECT_EQ(adapter.getFeature2d3d(0), 8);
+}
+
 void expectWrong(const std::string& argument, const std::function<void(Lists&)>& damage) {
   Lists lists;
   damage(lists);
@@ -85,6 +98,8 @@ TEST(NoncentralHybridAdapter, NamesTheWrongArgument) {
   test::expectRefused("focalLengths", [&] { adapter.setRigFocalLengths({1}); });
   test::expectRefused("focalLengths[1]", [&] { adapter.setRigFocalLengths({1, -1}); });
   test::expectRefused("weights2d2d", [&] { adapter.setWeights({1}, {}); });
+  test::expectRefused("features2d2d", [&] { adapter.setFeatures({1}, {}); });
+  test::expectRefused("features2d3d", [&] { adapter.setFeatures({1, 2}, {3, 4}); });
   test::expectRefused("weights2d3d[0]", [&] { adapter.setWeights({}, {nan}); });
 }
 
