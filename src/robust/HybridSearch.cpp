@@ -143,6 +143,7 @@ void HybridSearch::tryBatch(int count) {
   }
   significance_.setSamples(iterations_);
   if (best && isWorthConsidering(*best)) consider(best->model);
+  if (!bestIsSignificant_) choice_.learnFromFailures();
 }
 
 // Of minimal solutions the one is best that is least likely chance. Their scores do not tell, because an inlier of one kind can

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -60,6 +61,17 @@ std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& priors
   return result;
 }
 
+// Of samples with inliers only, half lead to a pose that is believed. In a staged one several seventh rays are tried.
+static std::vector<InlierBelief::SampleKind> sampleKinds(const std::vector<Strategy>& strategies) {
+  constexpr double kBelieved = 0.5;
+  std::vector<InlierBelief::SampleKind> result;
+  for (const Strategy& strategy : strategies) {
+    const int rays = strategy.isStaged() ? strategy.solver.rays - 1 : strategy.solver.rays;
+    result.push_back({rays, strategy.solver.points, kBelieved * strategy.yield()});
+  }
+  return result;
+}
+
 SolverChoice::SolverChoice(std::vector<Strategy> strategies)
     : strategies_(std::move(strategies)), drawn_(strategies_.size(), 0), cumulativeWeight_(strategies_.size(), 0) {
   setWeights();
@@ -76,16 +88,32 @@ void SolverChoice::setAllInlierProbabilities(const std::vector<double>& probabil
   setWeights();
 }
 
+void SolverChoice::learnFromFailures() {
+  // Before, they say little.
+  constexpr int kFewSamples = 128;
+  if (!allInlier_.empty() || std::accumulate(drawn_.begin(), drawn_.end(), 0) < kFewSamples) return;
+  if (!belief_) belief_.emplace(sampleKinds(strategies_));
+  // Probabilities per time, in proportion to which the time is shared out, not the samples: one that takes long must not use up the
+  // time before it is known to be hopeless.
+  std::vector<double> weights = belief_->successProbabilities(drawn_);
+  for (std::size_t s = 0; s < weights.size(); ++s) weights[s] /= strategies_[s].cost();
+  setWeights(weights, kHopelessIfBelieved);
+}
+
 void SolverChoice::setWeights() {
   const bool isKnown = !allInlier_.empty() && *std::max_element(allInlier_.begin(), allInlier_.end()) > 0;
+  if (isKnown)
+    setWeights(allInlier_, kHopeless);
+  else
+    setWeights(std::vector<double>(strategies_.size(), 1), std::numeric_limits<double>::infinity());
+}
+
+void SolverChoice::setWeights(const std::vector<double>& probabilities, double hopeless) {
   std::vector<double> rates(strategies_.size());
-  for (std::size_t s = 0; s < rates.size(); ++s)
-    rates[s] = strategies_[s].prior * (isKnown ? allInlier_[s] : 1) / strategies_[s].cost();
-  if (isKnown) {
-    const double best = *std::max_element(rates.begin(), rates.end());
-    for (double& rate : rates)
-      if (rate * kHopeless < best) rate = 0;
-  }
+  for (std::size_t s = 0; s < rates.size(); ++s) rates[s] = strategies_[s].prior * probabilities[s] / strategies_[s].cost();
+  const double best = rates.empty() ? 0 : *std::max_element(rates.begin(), rates.end());
+  for (double& rate : rates)
+    if (rate * hopeless < best) rate = 0;
   std::partial_sum(rates.begin(), rates.end(), cumulativeWeight_.begin());
 }
 

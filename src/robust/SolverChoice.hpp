@@ -1,9 +1,11 @@
 // Which solver to draw next, and when all of them together have tried enough.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hybridgv/sac/HybridRansacOptions.hpp"
+#include "robust/InlierBelief.hpp"
 #include "robust/Sampler.hpp"
 #include "solvers/MinimalProblems.hpp"
 
@@ -46,8 +48,10 @@ class SolverChoice {
 
   void addDraws(std::size_t strategy, int count) { drawn_[strategy] += count; }
   // Tells the probabilities P_s, by the best pose so far. Until then every strategy gets the same share of the time, times its
-  // prior.
+  // prior, and after many samples what they say: learnFromFailures.
   void setAllInlierProbabilities(const std::vector<double>& probabilities);
+  // No sample so far has led to a pose that is believed.
+  void learnFromFailures();
 
   // Probability that no sample so far had inliers only: prod (1 - P_s)^k_s; 1 until the probabilities are known.
   double missProbability() const;
@@ -57,12 +61,16 @@ class SolverChoice {
  private:
   // A strategy is not drawn if another finds an all-inlier sample this many times faster.
   static constexpr double kHopeless = 1.5;
+  // The same where that is only believed.
+  static constexpr double kHopelessIfBelieved = 10;
 
   void setWeights();
+  void setWeights(const std::vector<double>& probabilities, double hopeless);
 
   std::vector<Strategy> strategies_;
   std::vector<int> drawn_;
   std::vector<double> allInlier_, cumulativeWeight_;
+  std::optional<InlierBelief> belief_;
 };
 
 }  // namespace robust

@@ -46,6 +46,36 @@ TEST(SolverChoice, WeightIsPriorTimesProbabilityOverCostHoweverOftenItWasDrawn) 
   for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(share[s], weight[s] / sum, 1e-4);
 }
 
+Strategy mockOfPoints(int points, double cost) {
+  Strategy strategy = mock(1, cost);
+  strategy.solver.points = points;
+  return strategy;
+}
+
+TEST(SolverChoice, ManyFailuresSpeakForSmallSamplesThatTakeLittleTime) {
+  SolverChoice choice({mockOfPoints(3, 1), mockOfPoints(4, 1), mockOfPoints(3, 100)});
+  const std::vector<double> before = shares(choice);
+  choice.addDraws(0, 100);
+  choice.learnFromFailures();
+  EXPECT_EQ(shares(choice), before) << "too few";
+  choice.addDraws(0, 1000);
+  choice.addDraws(1, 1000);
+  choice.learnFromFailures();
+  const std::vector<double> after = shares(choice);
+  EXPECT_GT(after[0], before[0]);
+  EXPECT_GT(after[0], 2 * after[1]);
+  EXPECT_EQ(after[2], 0) << "as good, and a hundred times slower";
+}
+
+TEST(SolverChoice, WhatIsKnownCountsMoreThanFailures) {
+  SolverChoice choice({mockOfPoints(3, 1), mockOfPoints(4, 1)});
+  choice.addDraws(0, 1000);
+  choice.setAllInlierProbabilities({0.02, 0.02});
+  const std::vector<double> known = shares(choice);
+  choice.learnFromFailures();
+  EXPECT_EQ(shares(choice), known);
+}
+
 TEST(SolverChoice, HopelessStrategiesAreNotDrawn) {
   SolverChoice choice({mock(1, 2), mock(1, 2), mock(1, 1000)});
   choice.setAllInlierProbabilities({0.01, 0, 0.05});
