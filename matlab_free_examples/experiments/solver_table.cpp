@@ -4,6 +4,7 @@
 #include <hybridgv/absolute_pose/methods.hpp>
 #include <hybridgv/detail/parallelFor.hpp>
 #include <hybridgv/hybrid_pose/methods.hpp>
+#include <hybridgv/relative_pose/methods.hpp>
 
 #include <memory>
 #include <opengv/absolute_pose/methods.hpp>
@@ -26,17 +27,23 @@ struct Row {
   const char *problem, *configuration;
   std::vector<int> raysPerCamera;
   int points;
-  FocalPoses (*solve)(const NoncentralHybridAdapter&);
-  int solutions;      // complex ones, the bound of ours
-  const char* ours;   // the core of the algorithm
+  FocalPoses (*solve)(const NoncentralHybridAdapter&, double focalLength);  // which those that estimate it ignore
+  int solutions;                                                            // complex ones, the bound of ours
+  const char* ours;                                                         // the core of the algorithm
   const char* paper;  // size of the elimination template of Bhayani et al. 2023, Table 1
 };
 
-FocalPoses p4pf(const NoncentralHybridAdapter& adapter) { return hybridgv::absolute_pose::p4pf(adapter); }
-FocalPoses p35pf(const NoncentralHybridAdapter& adapter) { return hybridgv::absolute_pose::p35pf(adapter); }
-FocalPoses h13f(const NoncentralHybridAdapter& adapter) { return hybridgv::hybrid_pose::h13f(adapter); }
-FocalPoses h32f(const NoncentralHybridAdapter& adapter) { return hybridgv::hybrid_pose::h32f(adapter); }
-FocalPoses h51f(const NoncentralHybridAdapter& adapter) { return hybridgv::hybrid_pose::h51f(adapter); }
+FocalPoses p4pf(const NoncentralHybridAdapter& adapter, double) { return hybridgv::absolute_pose::p4pf(adapter); }
+FocalPoses p35pf(const NoncentralHybridAdapter& adapter, double) { return hybridgv::absolute_pose::p35pf(adapter); }
+FocalPoses h13f(const NoncentralHybridAdapter& adapter, double) { return hybridgv::hybrid_pose::h13f(adapter); }
+FocalPoses h32f(const NoncentralHybridAdapter& adapter, double) { return hybridgv::hybrid_pose::h32f(adapter); }
+FocalPoses h51f(const NoncentralHybridAdapter& adapter, double) { return hybridgv::hybrid_pose::h51f(adapter); }
+FocalPoses h70f(const NoncentralHybridAdapter& adapter, double) { return hybridgv::hybrid_pose::h70f(adapter); }
+FocalPoses p3p(const NoncentralHybridAdapter& adapter, double f) { return hybridgv::absolute_pose::p3p(adapter, f); }
+FocalPoses h22(const NoncentralHybridAdapter& adapter, double f) { return hybridgv::hybrid_pose::h22(adapter, f); }
+FocalPoses h41(const NoncentralHybridAdapter& adapter, double f) { return hybridgv::hybrid_pose::h41(adapter, f); }
+FocalPoses h60(const NoncentralHybridAdapter& adapter, double f) { return hybridgv::hybrid_pose::h60(adapter, f); }
+FocalPoses fivept(const NoncentralHybridAdapter& adapter, double f) { return hybridgv::relative_pose::fivept(adapter, f); }
 
 const std::vector<Row> kRows = {
     {"P4Pf", "-", {}, 4, p4pf, 6, "form of degree 6", "-"},
@@ -52,6 +59,20 @@ const std::vector<Row> kRows = {
     {"H51f", "[3] 3+2", {3, 2}, 1, h51f, 50, "50 paths", "511x561"},
     {"H51f", "[4] 4+1", {4, 1}, 1, h51f, 36, "36 paths", "390x428"},
     {"H51f", "[5] 5", {5}, 1, h51f, 9, "form of degree 9", "9x18"},
+    {"H70f", "[1] 1+1+1+1+1+1+1", {1, 1, 1, 1, 1, 1, 1}, 0, h70f, 118, "118 paths", "-"},
+    {"H70f", "[2] 2+2+2+1", {2, 2, 2, 1}, 0, h70f, 118, "118 paths", "-"},
+    {"H70f", "[3] 3+2+2", {3, 2, 2}, 0, h70f, 108, "108 paths", "-"},
+    {"H70f", "[3] 3+3+1", {3, 3, 1}, 0, h70f, 98, "98 paths", "-"},
+    {"H70f", "[4] 4+2+1", {4, 2, 1}, 0, h70f, 84, "84 paths", "-"},
+    {"H70f", "[4] 4+3", {4, 3}, 0, h70f, 76, "76 paths", "-"},
+    {"H70f", "[5] 5+2", {5, 2}, 0, h70f, 50, "50 paths", "-"},
+    {"H70f", "[6] 6+1", {6, 1}, 0, h70f, 18, "form of degree 9", "-"},
+    {"P3P", "f known", {}, 3, p3p, 4, "cubic", "-"},
+    {"H22", "[1] f known", {1, 1}, 2, h22, 16, "form of degree 16", "-"},
+    {"H22", "[2] f known", {2}, 2, h22, 16, "form of degree 16", "-"},
+    {"H41", "[4] f known", {4}, 1, h41, 20, "form of degree 10", "-"},
+    {"H60", "[5] 5+1 f known", {5, 1}, 0, h60, 20, "form of degree 10", "-"},
+    {"fivept", "[5] f known", {5}, 0, fivept, 20, "form of degree 10", "-"},
 };
 
 struct Settings {
@@ -71,7 +92,7 @@ Statistics countSolutions(const Row& row, const Settings& settings, ProgressBar&
   hybridgv::detail::parallelFor(settings.problems, settings.options.threads, [&](std::size_t i) {
     Random random(settings.options.seed, i);
     const hybridgv::test::MinimalProblem problem = hybridgv::test::makeMinimalProblem(random, row.raysPerCamera, row.points);
-    const FocalPoses solutions = row.solve(hybridgv::test::makeAdapter(problem));
+    const FocalPoses solutions = row.solve(hybridgv::test::makeAdapter(problem), problem.truth.focalLength);
     counts[i] = solutions.size();
     recovered[i] = hybridgv::test::distanceToNearest(solutions, problem.truth) < 1e-6;
     progress.step();
@@ -110,11 +131,14 @@ void run(const Settings& settings) {
 
   // All solvers take turns, so that other work on the machine burdens all alike.
   std::vector<std::vector<NoncentralHybridAdapter>> adapters(kRows.size());
+  std::vector<std::vector<double>> focalLengths(kRows.size());
   std::vector<std::unique_ptr<hybridgv::benchmarks::Gp3pProblem>> gp3pProblems;
   for (std::size_t i = 0; i < settings.timed; ++i) {
     for (std::size_t s = 0; s < kRows.size(); ++s) {
       Random random(settings.options.seed, i);
-      adapters[s].push_back(makeAdapter(hybridgv::test::makeMinimalProblem(random, kRows[s].raysPerCamera, kRows[s].points)));
+      const auto problem = hybridgv::test::makeMinimalProblem(random, kRows[s].raysPerCamera, kRows[s].points);
+      adapters[s].push_back(makeAdapter(problem));
+      focalLengths[s].push_back(problem.truth.focalLength);
     }
     Random random(settings.options.seed, i);
     gp3pProblems.push_back(std::make_unique<hybridgv::benchmarks::Gp3pProblem>(random));
@@ -126,7 +150,7 @@ void run(const Settings& settings) {
     gp3p.pass(settings.timed,
               [&](std::size_t i) { return opengv::absolute_pose::gp3p(gp3pProblems[i]->adapter(), three).size(); });
     for (std::size_t s = 0; s < kRows.size(); ++s)
-      watches[s].pass(settings.timed, [&](std::size_t i) { return kRows[s].solve(adapters[s][i]).size(); });
+      watches[s].pass(settings.timed, [&](std::size_t i) { return kRows[s].solve(adapters[s][i], focalLengths[s][i]).size(); });
   }
 
   CsvFile csv(
