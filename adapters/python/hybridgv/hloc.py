@@ -181,10 +181,18 @@ class QueryLocalizer:
             points2D_idxs: keypoint of each match
             points3D_id: number of the point of each match
         """
-        pixels = np.asarray(points2D_all, dtype=np.float64).reshape(-1, 2)[np.asarray(points2D_idxs, dtype=np.int64)]
+        keypoints = np.asarray(points2D_idxs, dtype=np.int64)
+        pixels = np.asarray(points2D_all, dtype=np.float64).reshape(-1, 2)[keypoints]
         points = self.map.points[[self._positions[int(number)] for number in points3D_id]]
         knowledge = self.knowledge_of(query_camera)
-        result = localize(pixels, points, camera=query_camera, camera_knowledge=knowledge, options=self.settings.options)
+        result = localize(
+            pixels,
+            points,
+            camera=query_camera,
+            camera_knowledge=knowledge,
+            keypoint_idxs=keypoints,
+            options=self.settings.options,
+        )
         return _pnp_of(result)
 
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "SfmScene.hpp"
 #include "TemporaryFolder.hpp"
@@ -341,6 +342,17 @@ TEST(LocalizationProblem, RejectsBadArguments) {
   });
 }
 
+TEST(LocalizationProblem, FeaturesAreTheKeypointsOfTheQuery) {
+  LocalizationProblemOptions options;
+  options.raysBesidePoints = true;
+  const LocalizationProblem problem = makeLocalizationProblem(makeModel(6, 400), 0, options);
+  ASSERT_GT(problem.keypoints2d2d.size() + problem.keypoints2d3d.size(), 50u);
+  for (std::size_t i = 0; i < problem.keypoints2d2d.size(); ++i)
+    EXPECT_EQ(problem.adapter.getFeature2d2d(i), static_cast<int>(problem.keypoints2d2d[i]));
+  for (std::size_t i = 0; i < problem.keypoints2d3d.size(); ++i)
+    EXPECT_EQ(problem.adapter.getFeature2d3d(i), static_cast<int>(problem.keypoints2d3d[i]));
+}
+
 class Outliers : public ::testing::TestWithParam<double> {};
 
 TEST_P(Outliers, AreTheShareAskedForAndNoneKeepsItsImagePoint) {
@@ -367,15 +379,15 @@ TEST_P(Outliers, AreTheShareAskedForAndNoneKeepsItsImagePoint) {
 INSTANTIATE_TEST_SUITE_P(Shares, Outliers, ::testing::Values(0.0, 0.05, 0.3, 0.5, 1.0),
                          [](const auto& info) { return std::to_string(std::lround(100 * info.param)) + "Percent"; });
 
-// The image points are permuted, none is lost or doubled.
+// The image points are permuted, none is lost or doubled, and each is still of the same feature.
 TEST(InjectOutliers, Permutes) {
   const LocalizationProblem problem = makeLocalizationProblem(makeModel(7), 0);
   const auto imagePoints = [](const NoncentralHybridAdapter& a) {
-    std::vector<std::pair<double, double>> result;
+    std::vector<std::tuple<double, double, int>> result;
     for (std::size_t i = 0; i < a.getNumberCorrespondences2d2d(); ++i)
-      result.emplace_back(a.getImagePoint2d2d(i)[0], a.getImagePoint2d2d(i)[1]);
+      result.emplace_back(a.getImagePoint2d2d(i)[0], a.getImagePoint2d2d(i)[1], a.getFeature2d2d(i));
     for (std::size_t i = 0; i < a.getNumberCorrespondences2d3d(); ++i)
-      result.emplace_back(a.getImagePoint2d3d(i)[0], a.getImagePoint2d3d(i)[1]);
+      result.emplace_back(a.getImagePoint2d3d(i)[0], a.getImagePoint2d3d(i)[1], a.getFeature2d3d(i));
     std::sort(result.begin(), result.end());
     return result;
   };
