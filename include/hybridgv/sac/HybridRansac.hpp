@@ -33,6 +33,7 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   /// The seven parameters' covariance [row-major 7x7]: small rotation in the query's frame [rad] (rotation * exp([.]x)),
   /// position, log focal length. It follows from the noise of the inliers, noise2d3d and noise2d2d, and from what happens to
   /// the pose if the rays of one rig camera, or one of 64 groups of points, are left out (jackknife), so that errors of the rig show.
+  /// Correspondences of one feature of the query are not independent in it (HybridAdapterBase::getFeature2d2d).
   /// Errors that all correspondences share do not; that of the principal point is allowed for if options.principalPointDeviationPx
   /// states how large it may be. All infinite if the inliers do not fix the pose.
   std::array<double, 49> covariance{};
