@@ -13,13 +13,25 @@ namespace hybridgv {
 namespace robust {
 namespace {
 
-// Two vectors over the parameters: what two independent errors of variance 1 add to the gradient.
+// Derivatives by the parameters of two errors: of a point, along u and v; of a ray, which has one, with a second that is always 0.
 using TwoErrors = Eigen::Matrix<double, correspondences::kMostParameters, 2>;
 
 // An inlier whose feature has other correspondences too.
 struct Sharer {
-  int feature, group, item;
-  TwoErrors ofFeature, own;  // errors of the feature's image point, and those of this ray or point
+  int feature = 0, group = 0, item = 0;
+  double weight = 0;
+  TwoErrors gradient = TwoErrors::Zero();                  // the derivatives times the weight
+  Eigen::Matrix2d byImagePoint = Eigen::Matrix2d::Zero();  // derivatives of the errors, one in a row
+  Eigen::Vector2d errors = Eigen::Vector2d::Zero();
+  // What errors of the feature's image point, and those of the ray or point itself, add to the gradient.
+  TwoErrors ofFeature = TwoErrors::Zero(), own = TwoErrors::Zero();
+
+  // With this variance of the coordinates of the feature's image point.
+  void split(double variance) {
+    ofFeature = std::sqrt(variance) * gradient * byImagePoint;
+    const double rest = 1 / weight - variance * byImagePoint.row(0).squaredNorm();
+    own = std::sqrt(std::max(rest, 0.)) * gradient;
+  }
 };
 
 int featureOf(const Sharer& s) { return s.feature; }
@@ -77,19 +89,15 @@ class Sharers {
   Sharers(const LeastSquaresProblem& problem, const QueryPose& pose, const QueryFeatures& features, const JackknifeGroups& groups)
       : problem_(problem), features_(features), groups_(groups), pose_(toPlain(pose)), sizes_(sizesOf(features)) {
     if (!problem.estimated.radial) pose_.distortion = 0;
-    double largest = 0;
-    if (problem.kinds.rays) largest = std::max(largest, problem.rayLoss.precision);
-    if (problem.kinds.points) largest = std::max(largest, problem.pointLoss.precision);
-    variance_ = 1 / largest;
     if (problem.kinds.rays) addRays();
     if (problem.kinds.points) addPoints();
   }
 
-  // Sorted, so that those of a feature follow each other, of these those of a group, and of these those with the same item.
-  std::vector<const Sharer*> sorted() const {
-    std::vector<const Sharer*> result;
+  // Those of a feature follow each other, of these those of a group, and of these those with the same item.
+  std::vector<Sharer*> sorted() {
+    std::vector<Sharer*> result;
     result.reserve(list_.size());
-    for (const Sharer& sharer : list_) result.push_back(&sharer);
+    for (Sharer& sharer : list_) result.push_back(&sharer);
     std::stable_sort(result.begin(), result.end(), [](const Sharer* a, const Sharer* b) { return itemOf(*a) < itemOf(*b); });
     return result;
   }
@@ -104,18 +112,13 @@ class Sharers {
     ChosenArrays chosen;
     Rows rows(sharing.members.size(), kRayRow);
     problem_.kernels->rayRows(chosen.rays(rays, sharing.members), pose_, problem_.rayLoss, rows.data());
-    for (std::size_t k = 0; k < sharing.members.size(); ++k) {
-      const double weight = rows.weight(k);
-      if (!(weight > 0)) continue;
-      const std::size_t i = sharing.members[k];
-      const Eigen::Vector2d byImagePoint(rows(k, kRayRow - 2), rows(k, kRayRow - 1));
-      const FullParameterVector gradient = weight * rows.derivatives(k, kFirstDerivative);
-      Sharer sharer{features_.ofRay(i), groups_.rays[i], sharing.items[k], gradient * byImagePoint.transpose(), {}};
-      sharer.ofFeature *= std::sqrt(variance_);
-      sharer.own.setZero();
-      sharer.own.col(0) = std::sqrt(std::max(1 / weight - variance_ * byImagePoint.squaredNorm(), 0.)) * gradient;
-      list_.push_back(sharer);
-    }
+    addInliers(sharing, rows, [&](std::size_t row, std::size_t i, Sharer& sharer) {
+      sharer.feature = features_.ofRay(i);
+      sharer.group = groups_.rays[i];
+      sharer.gradient.col(0) = sharer.weight * rows.derivatives(row, kFirstDerivative);
+      sharer.byImagePoint << rows(row, kRayRow - 3), rows(row, kRayRow - 2), 0, 0;
+      sharer.errors << rows(row, kRayRow - 1), 0;
+    });
   }
 
   void addPoints() {
@@ -127,15 +130,26 @@ class Sharers {
     ChosenArrays chosen;
     Rows rows(sharing.members.size(), kPointRow);
     problem_.kernels->pointRows(chosen.points(points, sharing.members), pose_, problem_.pointLoss, rows.data());
-    for (std::size_t k = 0; k < sharing.members.size(); ++k) {
-      const double weight = rows.weight(k);
-      if (!(weight > 0)) continue;
-      const std::size_t i = sharing.members[k];
-      TwoErrors gradient;
-      gradient << weight * rows.derivatives(k, kFirstDerivative), weight * rows.derivatives(k, kSecondDerivative);
-      // The error is the projection less the image point. Points are in groups of their own.
-      list_.push_back({features_.ofPoint(i), ~groups_.points[i], sharing.items[k], -std::sqrt(variance_) * gradient,
-                       std::sqrt(std::max(1 / weight - variance_, 0.)) * gradient});
+    addInliers(sharing, rows, [&](std::size_t row, std::size_t i, Sharer& sharer) {
+      sharer.feature = features_.ofPoint(i);
+      sharer.group = ~groups_.points[i];  // other groups than those of rays
+      sharer.gradient.col(0) = sharer.weight * rows.derivatives(row, kFirstDerivative);
+      sharer.gradient.col(1) = sharer.weight * rows.derivatives(row, kSecondDerivative);
+      sharer.byImagePoint = -Eigen::Matrix2d::Identity();  // the error is the projection less the image point
+      sharer.errors << rows(row, kPointRow - 2), rows(row, kPointRow - 1);
+    });
+  }
+
+  // Calls fill(row, index of the correspondence, sharer) for each.
+  template <class Fill>
+  void addInliers(const Sharing& sharing, const Rows& rows, Fill fill) {
+    for (std::size_t row = 0; row < sharing.members.size(); ++row) {
+      if (!(rows.weight(row) > 0)) continue;
+      Sharer sharer;
+      sharer.item = sharing.items[row];
+      sharer.weight = rows.weight(row);
+      fill(row, sharing.members[row], sharer);
+      list_.push_back(sharer);
     }
   }
 
@@ -144,28 +158,70 @@ class Sharers {
   const JackknifeGroups& groups_;
   PlainPose pose_;
   std::vector<int> sizes_;
-  double variance_;  // of the coordinates of a feature's image point
   std::vector<Sharer> list_;
 };
 
-// Sharers with the same key, which follow each other, have errors in common. These add up before they are squared: the difference that
-// this makes.
-template <class KeyOf>
-FullParameterMatrix sharedSquares(const std::vector<const Sharer*>& sharers, TwoErrors Sharer::*errors, KeyOf keyOf) {
-  FullParameterMatrix result = FullParameterMatrix::Zero();
+// Sums over the pairs of different rays or points of one feature.
+struct PairSums {
+  double products = 0;      // of w_i w_j (a_i . a_j) e_i e_j
+  double coefficients = 0;  // of w_i w_j (a_i . a_j)^2
+};
+
+// Of the sharers of one feature. Copies count once.
+template <class Iterator>
+void addPairs(Iterator first, Iterator end, PairSums& sums) {
+  Eigen::Vector2d errors = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (auto it = first; it != end; ++it) {
+    const Sharer& sharer = **it;
+    if (it != first && itemOf(sharer) == itemOf(**(it - 1))) continue;
+    const Eigen::Matrix2d weighted = sharer.weight * sharer.byImagePoint.transpose();
+    const Eigen::Vector2d own = weighted * sharer.errors;
+    const Eigen::Matrix2d ownInformation = weighted * sharer.byImagePoint;
+    sums.products += errors.dot(own);
+    sums.coefficients += information.cwiseProduct(ownInformation).sum();
+    errors += own;
+    information += ownInformation;
+  }
+}
+
+// Calls body(first, end) for those with equal keys, which follow each other.
+template <class KeyOf, class Body>
+void forEqual(const std::vector<Sharer*>& sharers, KeyOf keyOf, Body body) {
   for (auto first = sharers.begin(); first != sharers.end();) {
     const auto end = std::find_if(first, sharers.end(), [&](const Sharer* s) { return keyOf(*s) != keyOf(**first); });
-    if (end - first > 1) {
-      TwoErrors sum = TwoErrors::Zero();
-      for (auto it = first; it != end; ++it) {
-        const TwoErrors& own = (**it).*errors;
-        sum += own;
-        result.noalias() -= own * own.transpose();
-      }
-      result.noalias() += sum * sum.transpose();
-    }
+    body(first, end);
     first = end;
   }
+}
+
+// Least squares over the pairs of errors of one feature, each divided by its deviation. A few pairs, which would not tell much, are added
+// for the variance of the kind that has the smaller one.
+double varianceOfFeatures(const LeastSquaresProblem& problem, const std::vector<Sharer*>& sharers) {
+  constexpr double kEnough = 10, kMost = 4;
+  double precision = 0;
+  if (problem.kinds.rays) precision = std::max(precision, problem.rayLoss.precision);
+  if (problem.kinds.points) precision = std::max(precision, problem.pointLoss.precision);
+  PairSums pairs;
+  forEqual(sharers, featureOf, [&](auto first, auto end) { addPairs(first, end, pairs); });
+  const double ratio = (kEnough + pairs.products / precision) / (kEnough + pairs.coefficients / (precision * precision));
+  return std::clamp(ratio, 0., kMost) / precision;
+}
+
+// Sharers with equal keys have errors in common. These add up before they are squared: the difference that this makes.
+template <class KeyOf>
+FullParameterMatrix sharedSquares(const std::vector<Sharer*>& sharers, TwoErrors Sharer::*errors, KeyOf keyOf) {
+  FullParameterMatrix result = FullParameterMatrix::Zero();
+  forEqual(sharers, keyOf, [&](auto first, auto end) {
+    if (end - first < 2) return;
+    TwoErrors sum = TwoErrors::Zero();
+    for (auto it = first; it != end; ++it) {
+      const TwoErrors& own = (**it).*errors;
+      sum += own;
+      result.noalias() -= own * own.transpose();
+    }
+    result.noalias() += sum * sum.transpose();
+  });
   return result;
 }
 
@@ -181,8 +237,10 @@ ParameterMatrix estimated(const FullParameterMatrix& matrix, Intrinsics intrinsi
 std::optional<SharedInformation> sharedInformation(const LeastSquaresProblem& problem, const QueryPose& pose,
                                                    const QueryFeatures& features, const JackknifeGroups& groups) {
   if (!features.areShared()) return std::nullopt;
-  const Sharers list(problem, pose, features, groups);
-  const std::vector<const Sharer*> sharers = list.sorted();
+  Sharers list(problem, pose, features, groups);
+  const std::vector<Sharer*> sharers = list.sorted();
+  const double variance = varianceOfFeatures(problem, sharers);
+  for (Sharer* sharer : sharers) sharer->split(variance);
   const FullParameterMatrix ofFeatures = sharedSquares(sharers, &Sharer::ofFeature, featureOf);
   const FullParameterMatrix ofGroups = sharedSquares(sharers, &Sharer::ofFeature, groupOf);
   const FullParameterMatrix ofItems = sharedSquares(sharers, &Sharer::own, itemOf);

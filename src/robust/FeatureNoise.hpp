@@ -27,8 +27,9 @@ struct SharedInformation {
 //
 //     cov(e_i, e_j) = s^2 a_i . a_j + (1/w - s^2 |a|^2 if i and j have the same ray or point)
 //
-// for i and j of one feature. s^2 is the variance of the kind that has the smaller one. The problem's losses are those of inliers,
-// truncated squares. None if no two correspondences come from the same feature.
+// for i and j of one feature. s^2 follows from the products e_i e_j themselves: how much of the noise is the query's, and how much of it comes
+// from map images, from points or from errors of the rig, differs from map to map. The problem's losses are those of inliers, truncated
+// squares. None if no two correspondences come from the same feature.
 std::optional<SharedInformation> sharedInformation(const LeastSquaresProblem& problem, const QueryPose& pose,
                                                    const QueryFeatures& features, const JackknifeGroups& groups);
 

@@ -64,38 +64,51 @@ TEST(FeatureNoise, RepeatedCorrespondencesTellAsMuchAsOnce) {
 }
 
 // The sample covariance of the gradient at the true pose, in coordinates in which the predicted one is the identity.
-Eigen::VectorXd varianceOverPrediction(std::uint64_t stream, int raysPerFeature, bool withPoints, bool allow) {
+struct Setting {
+  int features, raysPerFeature;
+  bool withPoints;
+  double mapNoise = kNoise;
+};
+Eigen::VectorXd varianceOverPrediction(std::uint64_t stream, const Setting& setting, bool allow) {
   constexpr int kRuns = 600;
   test::Random random(test::testSeed(), stream);
-  const test::HybridScene scene = test::makeFeatureScene(random, 25, raysPerFeature, withPoints);
+  const test::HybridScene scene = test::makeFeatureScene(random, setting.features, setting.raysPerFeature, setting.withPoints);
   const Data exact(scene);
-  ParameterMatrix predicted = information(exact.problem(), exact.truth);
-  const std::optional<SharedInformation> shared = exact.shared(exact.problem(), exact.truth);
-  if (shared && allow) predicted += shared->all;
-  Eigen::MatrixXd sample = Eigen::MatrixXd::Zero(predicted.rows(), predicted.rows());
+  const double ofRays = std::sqrt((kNoise * kNoise + setting.mapNoise * setting.mapNoise) / 2);  // about
+  Eigen::MatrixXd sample = Eigen::MatrixXd::Zero(7, 7), predicted = sample;
   for (int i = 0; i < kRuns; ++i) {
-    const Data data(test::withFeatureNoise(random, scene, kNoise));
+    const Data data(test::withFeatureNoise(random, scene, kNoise, setting.mapNoise));
     const QueryPose truth = data.arrays.normalization().apply(exact.arrays.normalization().undo(exact.truth));
-    const ParameterVector gradient = derivatives(data.problem(), truth).gradient;
-    sample += gradient * gradient.transpose() / kRuns;
+    const LeastSquaresProblem problem = data.problem(ofRays, kNoise);
+    const Derivatives at = derivatives(problem, truth);
+    const std::optional<SharedInformation> shared = data.shared(problem, truth);
+    sample += at.gradient * at.gradient.transpose() / kRuns;
+    predicted += at.information / kRuns;
+    if (shared && allow) predicted += shared->all / kRuns;
   }
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(sample, Eigen::MatrixXd(predicted)).eigenvalues();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(sample, predicted).eigenvalues();
 }
 
 TEST(FeatureNoise, IsTheCovarianceThatTheGradientHas) {
-  struct Case {
-    int raysPerFeature;
-    bool withPoints;
-  };
-  for (const Case& c : {Case{3, false}, Case{5, false}, Case{1, true}, Case{3, true}, Case{5, true}}) {
-    const Eigen::VectorXd ratios = varianceOverPrediction(9412, c.raysPerFeature, c.withPoints, true);
-    EXPECT_GT(ratios.minCoeff(), 0.7) << c.raysPerFeature << " rays";
-    EXPECT_LT(ratios.maxCoeff(), 1.4) << c.raysPerFeature << " rays";
+  for (const Setting& s :
+       {Setting{25, 3, false}, Setting{25, 5, false}, Setting{25, 1, true}, Setting{25, 3, true}, Setting{25, 5, true}}) {
+    const Eigen::VectorXd ratios = varianceOverPrediction(9412, s, true);
+    EXPECT_GT(ratios.minCoeff(), 0.7) << s.raysPerFeature << " rays";
+    EXPECT_LT(ratios.maxCoeff(), 1.4) << s.raysPerFeature << " rays";
+  }
+}
+
+// How much of a ray's error the query has, the data tell.
+TEST(FeatureNoise, IsRightAlsoWhereTheMapImagesAreMoreExactThanTheQuery) {
+  for (const bool withPoints : {false, true}) {
+    const Eigen::VectorXd ratios = varianceOverPrediction(9417, {60, 5, withPoints, 0.2 * kNoise}, true);
+    EXPECT_GT(ratios.minCoeff(), 0.6);
+    EXPECT_LT(ratios.maxCoeff(), 1.5);
   }
 }
 
 TEST(FeatureNoise, IndependenceWouldNotExplainTheGradient) {
-  EXPECT_GT(varianceOverPrediction(9413, 5, true, false).maxCoeff(), 2.5);
+  EXPECT_GT(varianceOverPrediction(9413, {25, 5, true}, false).maxCoeff(), 2.5);
 }
 
 TEST(FeatureNoise, OutliersShareNothing) {

@@ -338,8 +338,8 @@ TEST(Kernels, RowsAddUpToTheNormalEquationsAtEveryLevel) {
             if (!(rays(i, 0) > 0)) continue;
             addRow(rays, i, 1, parametersOf(model.model), ofRays);
             for (std::size_t k = 0; k < 7; ++k) {
-              shifts.alongU[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, kRayRow - 2);
-              shifts.alongV[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, kRayRow - 1);
+              shifts.alongU[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, 9);
+              shifts.alongV[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, 10);
             }
           }
           for (std::size_t i = 0; i < 63; ++i) {

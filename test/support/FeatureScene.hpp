@@ -42,15 +42,19 @@ inline HybridScene makeFeatureScene(Random& random, int features, int raysPerFea
 }
 
 // Noise of the features and of the map images [px per coordinate].
-inline HybridScene withFeatureNoise(Random& random, HybridScene scene, double noise) {
+inline HybridScene withFeatureNoise(Random& random, HybridScene scene, double noise, double mapNoise) {
   std::map<std::pair<double, double>, Eigen::Vector3d> errors;
   for (auto* images : {&scene.image2d2d, &scene.image2d3d})
     for (Eigen::Vector3d& image : *images) {
       const Eigen::Vector3d error(noise * random.normal(), noise * random.normal(), 0);
       image += errors.emplace(std::pair(image[0], image[1]), error).first->second;
     }
-  for (Eigen::Vector3d& bearing : scene.bearings) bearing += Eigen::Vector3d(noise * random.normal(), noise * random.normal(), 0);
+  for (Eigen::Vector3d& bearing : scene.bearings)
+    bearing += Eigen::Vector3d(mapNoise * random.normal(), mapNoise * random.normal(), 0);
   return scene;
+}
+inline HybridScene withFeatureNoise(Random& random, const HybridScene& scene, double noise) {
+  return withFeatureNoise(random, scene, noise, noise);
 }
 
 // All correspondences so many times.

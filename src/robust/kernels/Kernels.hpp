@@ -59,7 +59,7 @@ struct ImageShiftSums {
   double alongU[kMostParameters] = {}, alongV[kMostParameters] = {};
 };
 
-constexpr std::size_t kRayRow = 1 + kMostParameters + 2, kPointRow = 1 + 2 * kMostParameters;
+constexpr std::size_t kRayRow = 1 + kMostParameters + 3, kPointRow = 1 + 2 * kMostParameters + 2;
 
 // One instruction set's versions. Ranges [begin, end) begin at a multiple of correspondences::kPadding and end at one or at the arrays' size.
 struct Kernels {
@@ -76,9 +76,10 @@ struct Kernels {
   void (*addRayShifts)(const RayArrays&, const PlainPose&, const KindLoss&, ImageShiftSums&);
   // W J C J^T of every ray, C a symmetric matrix of kMostParameters rows. `leverages` has room for the padding.
   void (*rayLeverages)(const RayArrays&, const PlainPose&, const KindLoss&, const double* covariance, double* leverages);
-  // The weights and derivatives of every correspondence, as columns of the padded size: kRayRow of rays, namely the weight W, the
-  // derivatives of the error by the parameters and by the image point (u, v); kPointRow of points, namely the weight and the derivatives
-  // of the error along u, then along v, by the parameters. Where the weight is 0 they need not be finite.
+  // The weights, errors and derivatives of every correspondence, as columns of the padded size: kRayRow of rays, namely the weight W, the
+  // derivatives of the error by the parameters and by the image point (u, v), and the error; kPointRow of points, namely the weight, the
+  // derivatives of the error along u by the parameters, those of the error along v, and both errors. Where the weight is 0 the others
+  // need not be finite.
   void (*rayRows)(const RayArrays&, const PlainPose&, const KindLoss&, double* columns);
   void (*pointRows)(const PointArrays&, const PlainPose&, const KindLoss&, double* columns);
 };

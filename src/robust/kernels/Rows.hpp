@@ -50,6 +50,7 @@ static void rayRows(const RayArrays& rays, const PlainPose& plainPose, const Kin
         for (const Doubles& derivative : derivatives) writer.write(scale * derivative);
         writer.write(scale * byImage.byU);
         writer.write(scale * byImage.byV);
+        writer.write(scale * ray.constraint);
       });
 }
 
@@ -68,6 +69,8 @@ static void pointRows(const PointArrays& points, const PlainPose& plainPose, con
     writer.write(weight);
     for (const Doubles& derivative : byU) writer.write(derivative);
     for (const Doubles& derivative : byV) writer.write(derivative);
+    writer.write(point.errorU);
+    writer.write(point.errorV);
   });
 }
 
