@@ -16,33 +16,41 @@ namespace {
 // Derivatives by the parameters of two errors: of a point, along u and v; of a ray, which has one, with a second that is always 0.
 using TwoErrors = Eigen::Matrix<double, correspondences::kMostParameters, 2>;
 
-// An inlier whose feature has other correspondences too.
+// A correspondence whose feature has others too. Equal items are the same ray, or the same point.
+struct Place {
+  int feature, group, item;
+  std::size_t index;
+};
+
+// What an inlier among them adds.
 struct Sharer {
   int feature = 0, group = 0, item = 0;
   double weight = 0;
   TwoErrors gradient = TwoErrors::Zero();                  // the derivatives times the weight
   Eigen::Matrix2d byImagePoint = Eigen::Matrix2d::Zero();  // derivatives of the errors, one in a row
   Eigen::Vector2d errors = Eigen::Vector2d::Zero();
-  // What errors of the feature's image point, and those of the ray or point itself, add to the gradient.
-  TwoErrors ofFeature = TwoErrors::Zero(), own = TwoErrors::Zero();
 
-  // With this variance of the coordinates of the feature's image point.
-  void split(double variance) {
-    ofFeature = std::sqrt(variance) * gradient * byImagePoint;
+  // What unit errors of the feature's image point add to the gradient.
+  TwoErrors ofFeature() const { return gradient * byImagePoint; }
+  // What errors of the ray or point itself add, where the coordinates of the feature's image point have this variance.
+  TwoErrors own(double variance) const {
     const double rest = 1 / weight - variance * byImagePoint.row(0).squaredNorm();
-    own = std::sqrt(std::max(rest, 0.)) * gradient;
+    return std::sqrt(std::max(rest, 0.)) * gradient;
   }
 };
 
-int featureOf(const Sharer& s) { return s.feature; }
-std::pair<int, int> groupOf(const Sharer& s) { return {s.feature, s.group}; }
-std::tuple<int, int, int> itemOf(const Sharer& s) { return {s.feature, s.group, s.item}; }
-
-// Which correspondences of a kind have a feature in common with others, with the numbers of their rays or points.
-struct Sharing {
-  Members members;
-  std::vector<int> items;
-};
+template <class Thing>
+int featureOf(const Thing& t) {
+  return t.feature;
+}
+template <class Thing>
+std::pair<int, int> groupOf(const Thing& t) {
+  return {t.feature, t.group};
+}
+template <class Thing>
+std::tuple<int, int, int> itemOf(const Thing& t) {
+  return {t.feature, t.group, t.item};
+}
 
 std::vector<int> sizesOf(const QueryFeatures& features) {
   std::vector<int> sizes(features.places().size(), 0);
@@ -50,17 +58,29 @@ std::vector<int> sizesOf(const QueryFeatures& features) {
   return sizes;
 }
 
-template <class Feature, class Item>
-Sharing sharingOf(std::size_t count, const std::vector<int>& sizes, Feature featureOf, Item itemOf) {
-  Sharing result;
+// Of one kind, in order: those of a feature follow each other, of these those of a group, and of these those with the same item.
+template <class Feature, class Group, class Item>
+std::vector<Place> placesOf(std::size_t count, const std::vector<int>& sizes, Feature feature, Group group, Item item) {
+  std::vector<Place> places;
   std::vector<Key> keys;
   for (std::size_t i = 0; i < count; ++i) {
-    if (sizes[static_cast<std::size_t>(featureOf(i))] < 2) continue;
-    result.members.push_back(i);
-    keys.push_back(itemOf(i));
+    if (sizes[static_cast<std::size_t>(feature(i))] < 2) continue;
+    places.push_back({feature(i), group(i), 0, i});
+    keys.push_back(item(i));
   }
-  result.items = numberEqual(keys).numbers;
-  return result;
+  const Numbering items = numberEqual(keys);
+  for (std::size_t k = 0; k < places.size(); ++k) places[k].item = items.numbers[k];
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.feature, a.group, a.item, a.index) < std::tie(b.feature, b.group, b.item, b.index);
+  });
+  return places;
+}
+
+Members indicesOf(const std::vector<Place>& places) {
+  Members indices;
+  indices.reserve(places.size());
+  for (const Place& place : places) indices.push_back(place.index);
+  return indices;
 }
 
 // The rows of the kernels, of which each column has the padded size.
@@ -93,28 +113,31 @@ class Sharers {
     if (problem.kinds.points) addPoints();
   }
 
-  // Those of a feature follow each other, of these those of a group, and of these those with the same item.
-  std::vector<Sharer*> sorted() {
-    std::vector<Sharer*> result;
-    result.reserve(list_.size());
-    for (Sharer& sharer : list_) result.push_back(&sharer);
-    std::stable_sort(result.begin(), result.end(), [](const Sharer* a, const Sharer* b) { return itemOf(*a) < itemOf(*b); });
+  // Of both kinds, ordered as their places.
+  std::vector<const Sharer*> sorted() const {
+    std::vector<const Sharer*> result;
+    result.reserve(rays_.size() + points_.size());
+    auto point = points_.begin();
+    for (const Sharer& ray : rays_) {
+      for (; point != points_.end() && itemOf(*point) < itemOf(ray); ++point) result.push_back(&*point);
+      result.push_back(&ray);
+    }
+    for (; point != points_.end(); ++point) result.push_back(&*point);
     return result;
   }
 
  private:
   void addRays() {
     const RayArrays& rays = problem_.rays;
-    const auto featureOf = [&](std::size_t i) { return features_.ofRay(i); };
-    const Sharing sharing = sharingOf(rays.size, sizes_, featureOf, [&](std::size_t i) {
-      return keyOf(std::array<double, 6>{rays.cx[i], rays.cy[i], rays.cz[i], rays.dx[i], rays.dy[i], rays.dz[i]});
-    });
+    const std::vector<Place> places = placesOf(
+        rays.size, sizes_, [&](std::size_t i) { return features_.ofRay(i); }, [&](std::size_t i) { return groups_.rays[i]; },
+        [&](std::size_t i) {
+          return keyOf(std::array<double, 6>{rays.cx[i], rays.cy[i], rays.cz[i], rays.dx[i], rays.dy[i], rays.dz[i]});
+        });
     ChosenArrays chosen;
-    Rows rows(sharing.members.size(), kRayRow);
-    problem_.kernels->rayRows(chosen.rays(rays, sharing.members), pose_, problem_.rayLoss, rows.data());
-    addInliers(sharing, rows, [&](std::size_t row, std::size_t i, Sharer& sharer) {
-      sharer.feature = features_.ofRay(i);
-      sharer.group = groups_.rays[i];
+    Rows rows(places.size(), kRayRow);
+    problem_.kernels->rayRows(chosen.rays(rays, indicesOf(places)), pose_, problem_.rayLoss, rows.data());
+    addInliers(places, rows, rays_, [&](std::size_t row, Sharer& sharer) {
       sharer.gradient.col(0) = sharer.weight * rows.derivatives(row, kFirstDerivative);
       sharer.byImagePoint << rows(row, kRayRow - 3), rows(row, kRayRow - 2), 0, 0;
       sharer.errors << rows(row, kRayRow - 1), 0;
@@ -123,16 +146,16 @@ class Sharers {
 
   void addPoints() {
     const PointArrays& points = problem_.points;
-    const auto featureOf = [&](std::size_t i) { return features_.ofPoint(i); };
-    const Sharing sharing = sharingOf(points.size, sizes_, featureOf, [&](std::size_t i) {
-      return keyOf(std::array<double, 3>{points.x[i], points.y[i], points.z[i]});
-    });
+    const std::vector<Place> places = placesOf(
+        points.size, sizes_, [&](std::size_t i) { return features_.ofPoint(i); },
+        [&](std::size_t i) { return ~groups_.points[i]; },  // other groups than those of rays
+        [&](std::size_t i) {
+          return keyOf(std::array<double, 3>{points.x[i], points.y[i], points.z[i]});
+        });
     ChosenArrays chosen;
-    Rows rows(sharing.members.size(), kPointRow);
-    problem_.kernels->pointRows(chosen.points(points, sharing.members), pose_, problem_.pointLoss, rows.data());
-    addInliers(sharing, rows, [&](std::size_t row, std::size_t i, Sharer& sharer) {
-      sharer.feature = features_.ofPoint(i);
-      sharer.group = ~groups_.points[i];  // other groups than those of rays
+    Rows rows(places.size(), kPointRow);
+    problem_.kernels->pointRows(chosen.points(points, indicesOf(places)), pose_, problem_.pointLoss, rows.data());
+    addInliers(places, rows, points_, [&](std::size_t row, Sharer& sharer) {
       sharer.gradient.col(0) = sharer.weight * rows.derivatives(row, kFirstDerivative);
       sharer.gradient.col(1) = sharer.weight * rows.derivatives(row, kSecondDerivative);
       sharer.byImagePoint = -Eigen::Matrix2d::Identity();  // the error is the projection less the image point
@@ -140,16 +163,16 @@ class Sharers {
     });
   }
 
-  // Calls fill(row, index of the correspondence, sharer) for each.
+  // `fill` is called with the row of each.
   template <class Fill>
-  void addInliers(const Sharing& sharing, const Rows& rows, Fill fill) {
-    for (std::size_t row = 0; row < sharing.members.size(); ++row) {
+  static void addInliers(const std::vector<Place>& places, const Rows& rows, std::vector<Sharer>& list, Fill fill) {
+    list.reserve(places.size());
+    for (std::size_t row = 0; row < places.size(); ++row) {
       if (!(rows.weight(row) > 0)) continue;
-      Sharer sharer;
-      sharer.item = sharing.items[row];
-      sharer.weight = rows.weight(row);
-      fill(row, sharing.members[row], sharer);
-      list_.push_back(sharer);
+      list.emplace_back();
+      std::tie(list.back().feature, list.back().group, list.back().item) = itemOf(places[row]);
+      list.back().weight = rows.weight(row);
+      fill(row, list.back());
     }
   }
 
@@ -158,7 +181,7 @@ class Sharers {
   const JackknifeGroups& groups_;
   PlainPose pose_;
   std::vector<int> sizes_;
-  std::vector<Sharer> list_;
+  std::vector<Sharer> rays_, points_;
 };
 
 // Sums over the pairs of different rays or points of one feature.
@@ -187,7 +210,7 @@ void addPairs(Iterator first, Iterator end, PairSums& sums) {
 
 // Calls body(first, end) for those with equal keys, which follow each other.
 template <class KeyOf, class Body>
-void forEqual(const std::vector<Sharer*>& sharers, KeyOf keyOf, Body body) {
+void forEqual(const std::vector<const Sharer*>& sharers, KeyOf keyOf, Body body) {
   for (auto first = sharers.begin(); first != sharers.end();) {
     const auto end = std::find_if(first, sharers.end(), [&](const Sharer* s) { return keyOf(*s) != keyOf(**first); });
     body(first, end);
@@ -197,28 +220,28 @@ void forEqual(const std::vector<Sharer*>& sharers, KeyOf keyOf, Body body) {
 
 // Least squares over the pairs of errors of one feature, each divided by its deviation. A few pairs, which would not tell much, are added
 // for the variance of the kind that has the smaller one.
-double varianceOfFeatures(const LeastSquaresProblem& problem, const std::vector<Sharer*>& sharers) {
+double varianceOfFeatures(const LeastSquaresProblem& problem, const std::vector<const Sharer*>& sharers) {
   constexpr double kEnough = 10, kMost = 4;
   double precision = 0;
   if (problem.kinds.rays) precision = std::max(precision, problem.rayLoss.precision);
   if (problem.kinds.points) precision = std::max(precision, problem.pointLoss.precision);
   PairSums pairs;
-  forEqual(sharers, featureOf, [&](auto first, auto end) { addPairs(first, end, pairs); });
+  forEqual(sharers, featureOf<Sharer>, [&](auto first, auto end) { addPairs(first, end, pairs); });
   const double ratio = (kEnough + pairs.products / precision) / (kEnough + pairs.coefficients / (precision * precision));
   return std::clamp(ratio, 0., kMost) / precision;
 }
 
 // Sharers with equal keys have errors in common. These add up before they are squared: the difference that this makes.
-template <class KeyOf>
-FullParameterMatrix sharedSquares(const std::vector<Sharer*>& sharers, TwoErrors Sharer::*errors, KeyOf keyOf) {
+template <class KeyOf, class Errors>
+FullParameterMatrix sharedSquares(const std::vector<const Sharer*>& sharers, KeyOf keyOf, Errors errorsOf) {
   FullParameterMatrix result = FullParameterMatrix::Zero();
   forEqual(sharers, keyOf, [&](auto first, auto end) {
     if (end - first < 2) return;
     TwoErrors sum = TwoErrors::Zero();
     for (auto it = first; it != end; ++it) {
-      const TwoErrors& own = (**it).*errors;
-      sum += own;
-      result.noalias() -= own * own.transpose();
+      const TwoErrors errors = errorsOf(**it);
+      sum += errors;
+      result.noalias() -= errors * errors.transpose();
     }
     result.noalias() += sum * sum.transpose();
   });
@@ -237,13 +260,14 @@ ParameterMatrix estimated(const FullParameterMatrix& matrix, Intrinsics intrinsi
 std::optional<SharedInformation> sharedInformation(const LeastSquaresProblem& problem, const QueryPose& pose,
                                                    const QueryFeatures& features, const JackknifeGroups& groups) {
   if (!features.areShared()) return std::nullopt;
-  Sharers list(problem, pose, features, groups);
-  const std::vector<Sharer*> sharers = list.sorted();
+  const Sharers list(problem, pose, features, groups);
+  const std::vector<const Sharer*> sharers = list.sorted();
   const double variance = varianceOfFeatures(problem, sharers);
-  for (Sharer* sharer : sharers) sharer->split(variance);
-  const FullParameterMatrix ofFeatures = sharedSquares(sharers, &Sharer::ofFeature, featureOf);
-  const FullParameterMatrix ofGroups = sharedSquares(sharers, &Sharer::ofFeature, groupOf);
-  const FullParameterMatrix ofItems = sharedSquares(sharers, &Sharer::own, itemOf);
+  const auto ofFeature = [](const Sharer& sharer) { return sharer.ofFeature(); };
+  const auto own = [&](const Sharer& sharer) { return sharer.own(variance); };
+  const FullParameterMatrix ofFeatures = variance * sharedSquares(sharers, featureOf<Sharer>, ofFeature);
+  const FullParameterMatrix ofGroups = variance * sharedSquares(sharers, groupOf<Sharer>, ofFeature);
+  const FullParameterMatrix ofItems = sharedSquares(sharers, itemOf<Sharer>, own);
   return SharedInformation{estimated(ofFeatures + ofItems, problem.estimated),
                            estimated(ofFeatures - ofGroups, problem.estimated)};
 }
