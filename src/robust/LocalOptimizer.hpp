@@ -71,10 +71,11 @@ class LocalOptimizer {
  private:
   // A kind that is not used counts as absent.
   SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds) const;
-  Noise noise(const SquaredErrors& errors) const;
+  // `benefitOfDoubt`: a factor for the odds that a ray is an inlier.
+  Noise noise(const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   Noise finalNoise(const SquaredErrors& errors) const;
   // For these standard deviations of the inliers' errors [px].
-  Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors) const;
+  Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
   // With the noise at this pose.
   Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const;
