@@ -34,8 +34,8 @@ constexpr double kSureDeviation = 0.05;
 // the distortion must count less in the same way.
 constexpr double kPriorOfTruncated = 0.05;
 // In the final optimization, the odds that a ray is an inlier count so many times. Those that follow from the data are 2 to 4 times too
-// small, because the share of wrong rays is a bound (ChanceModel). And 6 in 100 real rays, which share the errors of their camera's pose,
-// are beyond three standard deviations; without them the points' errors move the pose. Found on real models; where errors are normal, it
+// small, because the share of wrong rays is a bound (ChanceModel). And real rays, which share the errors of their camera's pose, are
+// beyond three standard deviations 6 times in 100 on two of three models; without them the points' errors move the pose. Found on real models; where errors are normal, it
 // makes no difference.
 constexpr double kBenefitOfDoubt = 10;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
