@@ -95,6 +95,12 @@ int HybridSearch::mostIterations() const {
   return static_cast<int>(std::min(std::ceil(std::max(most, 1.)), static_cast<double>(options_.maxIterations)));
 }
 
+int HybridSearch::leastIterations() const {
+  constexpr int kWithUnknownLens = 4;
+  const double least = static_cast<double>(options_.minIterations) * (lens_.isUnknown ? kWithUnknownLens : 1);
+  return static_cast<int>(std::min(least, static_cast<double>(mostIterations_)));
+}
+
 bool HybridSearch::lacksScale() const {
   const Sampler& sampler = data_.sampler;
   return sampler.numberPoints() == 0 && sampler.numberCameras() == 1 && sampler.numberRays() >= estimated_.parameters();
@@ -112,7 +118,7 @@ int HybridSearch::nextBatch(int batch) const {
   if (!bestIsSignificant_) return next;
   const double needed = std::ceil(choice_.samplesUntil(1 - options_.successProbability)) + 1;
   const double wanted =
-      std::max({needed, static_cast<double>(options_.minIterations - iterations_), static_cast<double>(kLeastBatch)});
+      std::max({needed, static_cast<double>(leastIterations() - iterations_), static_cast<double>(kLeastBatch)});
   return static_cast<int>(std::min(static_cast<double>(next), wanted));
 }
 
@@ -338,7 +344,7 @@ bool HybridSearch::isDone() {
     stopReason_ = sac::StopReason::TimeBudget;
   } else if (iterations_ >= mostIterations_) {
     stopReason_ = mostIterations_ < options_.maxIterations ? sac::StopReason::NoMoreSamples : sac::StopReason::MaxIterations;
-  } else if (bestIsSignificant_ && iterations_ >= options_.minIterations &&
+  } else if (bestIsSignificant_ && iterations_ >= leastIterations() &&
              choice_.missProbability() < 1 - options_.successProbability) {
     stopReason_ = sac::StopReason::Confident;
   }

@@ -92,6 +92,7 @@ class HybridSearch {
   void tryBatch(int count);
   LocalOptimizer makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features) const;
   int mostIterations() const;
+  int leastIterations() const;
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;

@@ -307,12 +307,13 @@ TEST(HybridRansac, IdenticalPointsAndCollinearPointsEndWithoutSuccess) {
 
 // ---- hard data ----
 
-TEST(HybridRansac, NinetyFivePercentOutliersEndWithinTheTimeBudget) {
+// A pose is found, if at all, by one of 30 000 samples.
+TEST(HybridRansac, NinetySevenPercentOutliersEndWithinTheTimeBudget) {
   test::Random random(test::testSeed(), 86);
-  const HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.95));
+  const HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.97));
   HybridRansacOptions options = thresholds();
   options.maxIterations = 1 << 30;
-  options.timeBudgetSeconds = 0.1;
+  options.timeBudgetSeconds = 0.05;
   const HybridRansacResult result = hybridRansac(scene.adapter(), options);
   expectSound(result, scene, options);
   EXPECT_TRUE(!result.success || isRight(result.pose, scene.truth));

@@ -173,6 +173,24 @@ TEST(RealProblem, FocalLengthsOfPhotosAreFoundWithTheirDistortion) {
   EXPECT_LT(errors[errors.size() / 2], 0.65);
 }
 
+// Each photo from other samples: the optimum must not depend on which come first.
+TEST(RealProblem, FocalLengthsOfPhotosAreFoundFromAllSamples) {
+  const std::string folder = std::string(HYBRIDGV_REALDATA_DIR) + "/photos/problems";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  constexpr std::uint64_t kSeeds = 100;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const sfm::LocalizationProblem problem = sfm::readProblem(entry.path().string());
+    std::uint64_t right = 0;
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      sac::HybridRansacOptions options = sfm::ransacOptions(problem);
+      options.seed = 1000 + seed;
+      const sac::HybridRansacResult result = sac::hybridRansac(problem.adapter, options);
+      right += result.success && std::abs(result.simpleRadialFocalLength / problem.reference->focalLength - 1) < 0.02;
+    }
+    EXPECT_GE(right, kSeeds - 1) << entry.path().filename();
+  }
+}
+
 // Many rays on a flat facade, map images of unknown focal length: the query's must not run away.
 TEST(RealProblem, TheFocalLengthDoesNotRunAwayOnAFlatFacade) {
   const std::string path = std::string(HYBRIDGV_REALDATA_DIR) + "/photos/problems/reichstag_runaway_focal.txt";

@@ -193,6 +193,16 @@ TEST(UnknownDistortion, IsAlwaysKeptIfNoEvidenceIsNeeded) {
   }
 }
 
+TEST(UnknownDistortion, DrawsFourTimesAsManySamplesAtLeast) {
+  Random random(testSeed(), 9620);
+  const HybridScene scene = makeWideScene(random, wide(simpleRadialLens(0), 0));
+  HybridRansacOptions options = radial(1);
+  options.minIterations = 30;
+  EXPECT_EQ(sac::hybridRansac(adapterOf(scene), options).iterations, 120);
+  options.maxIterations = 100;
+  EXPECT_EQ(sac::hybridRansac(adapterOf(scene), options).iterations, 100);
+}
+
 // What is given in its units changes the prior a little; the estimate is one in pixels.
 TEST(UnknownDistortion, HardlyDependsOnTheImagesRadius) {
   Random random(testSeed(), 9607);

@@ -53,7 +53,7 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// Stop when the probability to have missed a sample of inliers only, over all solvers together, is below 1 minus this.
   double successProbability = 0.9999;
   /// Samples drawn at least (if maxIterations allows): noisy data have local optima that look good enough to stop at, and a few
-  /// more samples are cheap.
+  /// more samples are cheap. Four times as many where the distortion is unknown, with which there are more of these.
   int minIterations = 24;
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
