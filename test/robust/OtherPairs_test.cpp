@@ -51,6 +51,16 @@ TEST(OtherPairs, RandomPairsOfEvenlySpreadPointsAgreeAsOftenAsTheAreaSays) {
   EXPECT_NEAR(shares.points[1], expected / 4, 0.5 * expected / 4);
 }
 
+HybridScene sceneWithPointsListedTenTimes() {
+  HybridScene scene = sceneOf(20);
+  const HybridScene once = scene;
+  for (int copy = 0; copy < 9; ++copy) {
+    scene.points.insert(scene.points.end(), once.points.begin(), once.points.end());
+    scene.image2d3d.insert(scene.image2d3d.end(), once.image2d3d.begin(), once.image2d3d.end());
+  }
+  return scene;
+}
+
 TEST(OtherPairs, AllAgreeIfTheImageHasOnlyOnePlace) {
   HybridScene scene = sceneOf(50);
   for (Eigen::Vector3d& point : scene.points) point = Eigen::Vector3d(0.1, 0.2, 0.3) + 1e-4 * (point - scene.points[0]);
@@ -64,12 +74,7 @@ TEST(OtherPairs, AllAgreeIfTheImageHasOnlyOnePlace) {
 
 // An image point of the own feature agrees with the true pose; it says nothing about accidents.
 TEST(OtherPairs, TheOwnFeatureIsNoRandomPartner) {
-  HybridScene scene = sceneOf(20);
-  const HybridScene once = scene;
-  for (int copy = 0; copy < 9; ++copy) {
-    scene.points.insert(scene.points.end(), once.points.begin(), once.points.end());
-    scene.image2d3d.insert(scene.image2d3d.end(), once.image2d3d.begin(), once.image2d3d.end());
-  }
+  HybridScene scene = sceneWithPointsListedTenTimes();
   const Data data(scene);
   EXPECT_EQ(OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, 0.1, 0.1).points[0], 0);
 }
@@ -86,12 +91,7 @@ TEST(OtherPairs, NeighboursAgreeWhereTheyAreNearer) {
 }
 
 TEST(OtherPairs, ACorrespondenceIsNoNeighbourOfItsOwnCopies) {
-  HybridScene scene = sceneOf(20);
-  const HybridScene once = scene;
-  for (int copy = 0; copy < 9; ++copy) {
-    scene.points.insert(scene.points.end(), once.points.begin(), once.points.end());
-    scene.image2d3d.insert(scene.image2d3d.end(), once.image2d3d.begin(), once.image2d3d.end());
-  }
+  HybridScene scene = sceneWithPointsListedTenTimes();
   const Data data(scene);
   const Shares shares = OtherPairs::ofNeighbours(data.arrays, robust::Evidence(data.arrays)).shares(data.truth, 1, 1);
   EXPECT_EQ(shares.points[0], 0);
