@@ -71,7 +71,7 @@ class LocalOptimizer {
  private:
   // A kind that is not used counts as absent.
   SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds) const;
-  // `benefitOfDoubt`: a factor for the odds that a ray is an inlier.
+  // `benefitOfDoubt`: a factor for the odds that a ray is an inlier, if there are as many points.
   Noise noise(const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   Noise finalNoise(const SquaredErrors& errors) const;
   // For these standard deviations of the inliers' errors [px].
