@@ -181,8 +181,7 @@ void OtherPairs::setPointErrors(const PlainPose& pose, std::size_t round, std::v
   kernelsFor(pose).squaredPointErrors(points, pose, errors.data());
 }
 
-LevelShares OtherPairs::pointSharesOfWrongNeighbours(const PlainPose& pose, double maxReprojectionError,
-                                                     const LevelShares& ofAll) const {
+LevelShares OtherPairs::ofWrongNeighbours(const PlainPose& pose, double maxReprojectionError, const LevelShares& ofAll) const {
   std::vector<NeighbourPair> pairs;
   std::vector<double> squaredErrors, errors(padded(points_.size));
   for (std::size_t round = 0; round < neighbours_.size(); ++round) {
@@ -218,6 +217,7 @@ Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double
     kernelsFor(pose).squaredRayErrors(rays, pose, errors.data());
   });
   result.points = count(points_, maxReprojectionError, [&](std::size_t round) { setPointErrors(pose, round, errors); });
+  if (!neighbours_.empty()) result.points = ofWrongNeighbours(pose, maxReprojectionError, result.points);
   return result;
 }
 

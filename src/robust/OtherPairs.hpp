@@ -24,14 +24,11 @@ class OtherPairs {
                            std::uint64_t seed);
   // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
-  // pairs have, but nothing agrees inside an object.
+  // pairs have, but nothing agrees inside an object. Of points, neighbours that agree with the pose themselves do not count.
   static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence);
 
   // The shares at a pose in the arrays' frame. The arrays, which are in random order, must still exist.
   Shares shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const;
-  // With neighbours: the share of the points among neighbours that do not agree with the pose themselves (WrongNeighbours.hpp). At most
-  // `ofAll`, the share of all.
-  LevelShares pointSharesOfWrongNeighbours(const PlainPose& pose, double maxReprojectionError, const LevelShares& ofAll) const;
 
  private:
   // The first `size` correspondences of a kind get another image point in each round; NaN is none.
@@ -40,6 +37,7 @@ class OtherPairs {
     std::vector<std::vector<double>> u, v;
   };
   explicit OtherPairs(const correspondences::CorrespondenceArrays& arrays) : arrays_(&arrays) {}
+  LevelShares ofWrongNeighbours(const PlainPose& pose, double maxReprojectionError, const LevelShares& ofAll) const;
   void setPointErrors(const PlainPose& pose, std::size_t round, std::vector<double>& errors) const;
   static Partners noPartners(std::size_t size, std::size_t rounds);
   static void setPartner(std::size_t i, std::size_t round, double u, double v, Partners& partners);

@@ -103,11 +103,8 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   shares = largest(shares, sharesOf(*randomPairs_));
   if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
   if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_);
-  Shares ofNeighbours = sharesOf(*neighbours_);
-  const double logFalseAlarmsOfNeighbours = kLogFalseAlarmsOfNeighbours + logOdds;
-  if (isLessLikelyThan(logFalseAlarmsOfNeighbours, errors, largest(shares, ofNeighbours))) return true;
-  ofNeighbours.points = neighbours_->pointSharesOfWrongNeighbours(plain, scorer_.bounds().points, ofNeighbours.points);
-  return isLessLikelyThan(logFalseAlarmsOfNeighbours, errors, largest(shares, ofNeighbours));
+  shares = largest(shares, sharesOf(*neighbours_));
+  return isLessLikelyThan(kLogFalseAlarmsOfNeighbours + logOdds, errors, shares);
 }
 
 bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& errors, const Shares& shares) const {
