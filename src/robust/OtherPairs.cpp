@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
 
 #include "math/RandomStream.hpp"
 
@@ -82,12 +80,6 @@ class Nearest {
   std::array<std::size_t, kNeighbours> index_{};
 };
 
-std::vector<std::size_t> placesUpTo(std::size_t count) {
-  std::vector<std::size_t> places(count);
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  return places;
-}
-
 // Of the first matches, by group.
 template <class Matches, class Group, class Position>
 std::vector<Candidates> candidatesOf(const Matches& matches, Group group, Position position) {
@@ -144,19 +136,14 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
 
 OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence) {
   std::vector<double> squaredDistances;
-  std::vector<std::vector<std::size_t>> neighbours;
   const auto pairUp = [&](const auto& matches, auto group, auto position, auto isSame) {
-    neighbours.assign(kNeighbours, placesUpTo(std::min(matches.size(), kAskersOfNeighbours)));
     Partners partners = noPartners(std::min(matches.size(), kAskersOfNeighbours), kNeighbours);
     const std::vector<Candidates> candidates = candidatesOf(matches, group, position);
     for (std::size_t i = 0; i < partners.size; ++i) {
       const Candidates& others = candidates[static_cast<std::size_t>(group(matches[i]))];
       others.squaredDistancesFrom(position(matches[i]), squaredDistances);
       const Nearest nearest(others, squaredDistances, [&](std::size_t j) { return !isSame(i, j); });
-      for (std::size_t k = 0; k < nearest.size(); ++k) {
-        setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
-        neighbours[k][i] = nearest[k];
-      }
+      for (std::size_t k = 0; k < nearest.size(); ++k) setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
     }
     return partners;
   };
@@ -169,30 +156,7 @@ OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Ev
       arrays.points(), [](const PointMatch&) { return 0; },
       [](const PointMatch& match) -> const Eigen::Vector3d& { return match.point; },
       [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); });
-  result.neighbours_ = std::move(neighbours);  // those of the points, which come last
   return result;
-}
-
-void OtherPairs::setPointErrors(const PlainPose& pose, std::size_t round, std::vector<double>& errors) const {
-  correspondences::PointArrays points = arrays_->pointArrays();
-  points.size = points_.size;
-  points.u = points_.u[round].data();
-  points.v = points_.v[round].data();
-  kernelsFor(pose).squaredPointErrors(points, pose, errors.data());
-}
-
-LevelShares OtherPairs::ofWrongNeighbours(const PlainPose& pose, double maxReprojectionError, const LevelShares& ofAll) const {
-  std::vector<NeighbourPair> pairs;
-  std::vector<double> squaredErrors, errors(padded(points_.size));
-  for (std::size_t round = 0; round < neighbours_.size(); ++round) {
-    setPointErrors(pose, round, errors);
-    for (std::size_t i = 0; i < points_.size; ++i) {
-      if (neighbours_[round][i] == i) continue;
-      pairs.push_back({i, neighbours_[round][i]});
-      squaredErrors.push_back(errors[i]);
-    }
-  }
-  return sharesOfWrongNeighbours(*arrays_, pairs, squaredErrors, pose, maxReprojectionError, ofAll);
 }
 
 Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const {
@@ -201,7 +165,7 @@ Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double
     LevelShares shares{};
     if (partners.pairs == 0) return shares;
     for (std::size_t round = 0; round < partners.u.size(); ++round) {
-      setErrors(round);
+      setErrors(partners.u[round].data(), partners.v[round].data());
       const LevelCounts counts = countLevels(errors.data(), partners.size, threshold * threshold);
       for (std::size_t level = 0; level < counts.size(); ++level) shares[level] += counts[level];
     }
@@ -209,15 +173,20 @@ Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double
     return shares;
   };
   Shares result;
-  result.rays = count(rays_, maxEpipolarError, [&](std::size_t round) {
+  result.rays = count(rays_, maxEpipolarError, [&](const double* u, const double* v) {
     correspondences::RayArrays rays = arrays_->rayArrays();
     rays.size = rays_.size;
-    rays.u = rays_.u[round].data();
-    rays.v = rays_.v[round].data();
+    rays.u = u;
+    rays.v = v;
     kernelsFor(pose).squaredRayErrors(rays, pose, errors.data());
   });
-  result.points = count(points_, maxReprojectionError, [&](std::size_t round) { setPointErrors(pose, round, errors); });
-  if (!neighbours_.empty()) result.points = ofWrongNeighbours(pose, maxReprojectionError, result.points);
+  result.points = count(points_, maxReprojectionError, [&](const double* u, const double* v) {
+    correspondences::PointArrays points = arrays_->pointArrays();
+    points.size = points_.size;
+    points.u = u;
+    points.v = v;
+    kernelsFor(pose).squaredPointErrors(points, pose, errors.data());
+  });
   return result;
 }
 

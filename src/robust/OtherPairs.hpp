@@ -7,7 +7,6 @@
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Evidence.hpp"
 #include "robust/Levels.hpp"
-#include "robust/WrongNeighbours.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -24,7 +23,7 @@ class OtherPairs {
                            std::uint64_t seed);
   // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
-  // pairs have, but nothing agrees inside an object. Of points, neighbours that agree with the pose themselves do not count.
+  // pairs have, but nothing agrees inside an object.
   static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence);
 
   // The shares at a pose in the arrays' frame. The arrays, which are in random order, must still exist.
@@ -37,15 +36,11 @@ class OtherPairs {
     std::vector<std::vector<double>> u, v;
   };
   explicit OtherPairs(const correspondences::CorrespondenceArrays& arrays) : arrays_(&arrays) {}
-  LevelShares ofWrongNeighbours(const PlainPose& pose, double maxReprojectionError, const LevelShares& ofAll) const;
-  void setPointErrors(const PlainPose& pose, std::size_t round, std::vector<double>& errors) const;
   static Partners noPartners(std::size_t size, std::size_t rounds);
   static void setPartner(std::size_t i, std::size_t round, double u, double v, Partners& partners);
 
   const correspondences::CorrespondenceArrays* arrays_;
   Partners rays_, points_;
-  // For each round the neighbours of the points; empty if partners are random. Where there is none it is the point itself.
-  std::vector<std::vector<std::size_t>> neighbours_;
 };
 
 }  // namespace robust
