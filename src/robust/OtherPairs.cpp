@@ -17,9 +17,12 @@ using correspondences::RayMatch;
 
 // So many correspondences of a kind get random partners, so many partners each: a share of one in a thousand is still seen.
 constexpr std::size_t kAskers = 256, kPairs = 2048, kMostPartners = 64;
-// With neighbours, which are searched for among so many.
-constexpr std::size_t kAskersOfNeighbours = 32, kNeighbours = 8, kCandidates = 2048;
+// With neighbours, which are searched for among so many. Those of one object agree or disagree together, so that a share is only as
+// exact as the number of askers; and the more correspondences there are, the smaller an excess over the share counts as no accident.
+constexpr std::size_t kFewAskers = 32, kOfAll = 4, kNeighbours = 8, kCandidates = 2048;
 constexpr std::uint64_t kPartnerStream = ~std::uint64_t{0} - 2;
+
+std::size_t askersOfNeighbours(std::size_t all) { return std::min(all, std::clamp(all / kOfAll, kFewAskers, kAskers)); }
 
 // Candidates of one group in columns, so that the distances to all of them are computed many at once.
 class Candidates {
@@ -137,7 +140,7 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
 OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence) {
   std::vector<double> squaredDistances;
   const auto pairUp = [&](const auto& matches, auto group, auto position, auto isSame) {
-    Partners partners = noPartners(std::min(matches.size(), kAskersOfNeighbours), kNeighbours);
+    Partners partners = noPartners(askersOfNeighbours(matches.size()), kNeighbours);
     const std::vector<Candidates> candidates = candidatesOf(matches, group, position);
     for (std::size_t i = 0; i < partners.size; ++i) {
       const Candidates& others = candidates[static_cast<std::size_t>(group(matches[i]))];

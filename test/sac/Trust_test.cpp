@@ -61,6 +61,36 @@ TEST_P(WithPose, IsARightSuccess) {
   });
 }
 
+// Objects in space, places in the image, each object matched with one of them, at random inside. Some objects fit their places in a wrong
+// pose, with all of their matches together.
+HybridScene objectsInWrongPlaces(Random& random) {
+  HybridScene scene;
+  scene.truth.focalLength = 1000;
+  const int objects = 6 + random.below(5), matches = 60 + random.below(140);
+  const double size = std::exp(random.uniform(std::log(0.02), std::log(2.))),
+               extent = std::exp(random.uniform(std::log(3.), std::log(100.)));
+  for (int k = 0; k < objects; ++k) {
+    const Eigen::Vector3d object = random.vector(-5, 5), place(random.uniform(-500, 500), random.uniform(-500, 500), 1);
+    for (int j = 0; j < matches; ++j) {
+      scene.points.push_back(object + size * random.vector(-1, 1));
+      scene.image2d3d.push_back(place + extent * Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0));
+    }
+  }
+  return scene;
+}
+
+TEST(Trust, ObjectsInWrongPlacesAreNoSuccess) {
+  int successes = 0;
+  for (std::uint64_t i = 0; i < 150; ++i) {
+    Random random(testSeed() + 9700, i);
+    sac::HybridRansacOptions options;
+    options.seed = i;
+    options.maxIterations = 1000;
+    successes += sac::hybridRansac(objectsInWrongPlaces(random).adapter(), options).success;
+  }
+  EXPECT_LE(successes, 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(, WithoutPose, testing::ValuesIn(casesWithoutPose()), nameOf);
 INSTANTIATE_TEST_SUITE_P(, Undetermined, testing::ValuesIn(undeterminedCases()), nameOf);
 INSTANTIATE_TEST_SUITE_P(, WithPose, testing::ValuesIn(casesWithPose()), nameOf);
