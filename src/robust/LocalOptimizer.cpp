@@ -20,7 +20,7 @@ using correspondences::PaddedValues;
 constexpr double kLeastDeviation = 1e-6;
 // A few errors do not tell their deviation. With less than this number, part of its square is that of what is expected: that of
 // the other kind, twice as much for points as for rays; or the working threshold's, if there are few of both.
-constexpr double kEnough = 80, kPointsPerRays = 2;
+constexpr double kEnough = 60, kPointsPerRays = 2;
 // The same at the final pose, where the number of parameters that were fitted is known.
 constexpr double kEnoughAtEnd = 20;
 constexpr double kDeviationsInThreshold = 2.5;

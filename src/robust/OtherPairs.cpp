@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/RandomStream.hpp"
+#include "robust/NearestCandidates.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -17,76 +18,17 @@ using correspondences::RayMatch;
 
 // So many correspondences of a kind get random partners, so many partners each: a share of one in a thousand is still seen.
 constexpr std::size_t kAskers = 256, kPairs = 2048, kMostPartners = 64;
-// With neighbours, which are searched for among so many. Those of one object agree or disagree together, so that a share is only as
-// exact as the number of askers; and the more correspondences there are, the smaller an excess over the share counts as no accident.
-constexpr std::size_t kFewAskers = 32, kOfAll = 4, kNeighbours = 8, kCandidates = 2048;
+// With neighbours. Those of one object agree or disagree together, so that a share is only as exact as the number of askers; and the
+// more correspondences there are, the smaller an excess over the share counts as no accident.
+constexpr std::size_t kFewAskers = 32, kOfAll = 4;
 constexpr std::uint64_t kPartnerStream = ~std::uint64_t{0} - 2;
 
 std::size_t askersOfNeighbours(std::size_t all) { return std::min(all, std::clamp(all / kOfAll, kFewAskers, kAskers)); }
 
-// Candidates of one group in columns, so that the distances to all of them are computed many at once.
-class Candidates {
- public:
-  void reserve(std::size_t size) {
-    index_.reserve(size);
-    x_.reserve(size);
-    y_.reserve(size);
-    z_.reserve(size);
-  }
-  void add(std::size_t index, const Eigen::Vector3d& position) {
-    index_.push_back(index);
-    x_.push_back(position[0]);
-    y_.push_back(position[1]);
-    z_.push_back(position[2]);
-  }
-  std::size_t size() const { return index_.size(); }
-  std::size_t index(std::size_t k) const { return index_[k]; }
-  void squaredDistancesFrom(const Eigen::Vector3d& position, std::vector<double>& result) const {
-    const double x = position[0], y = position[1], z = position[2];
-    result.resize(size());
-    for (std::size_t k = 0; k < size(); ++k) {
-      const double dx = x_[k] - x, dy = y_[k] - y, dz = z_[k] - z;
-      result[k] = dx * dx + dy * dy + dz * dz;
-    }
-  }
-
- private:
-  std::vector<std::size_t> index_;
-  std::vector<double> x_, y_, z_;
-};
-
-// The nearest candidates, nearest first, of those that count. (Whether one does is asked only if it is near.)
-class Nearest {
- public:
-  template <class Counts>
-  Nearest(const Candidates& candidates, const std::vector<double>& squaredDistances, Counts counts) {
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-      if ((size_ < kNeighbours || squaredDistances[k] < distance_[size_ - 1]) && counts(candidates.index(k)))
-        insert(squaredDistances[k], candidates.index(k));
-  }
-  std::size_t size() const { return size_; }
-  std::size_t operator[](std::size_t k) const { return index_[k]; }
-
- private:
-  void insert(double distance, std::size_t index) {
-    std::size_t k = size_ < kNeighbours ? size_++ : size_ - 1;
-    for (; k > 0 && distance < distance_[k - 1]; --k) {
-      distance_[k] = distance_[k - 1];
-      index_[k] = index_[k - 1];
-    }
-    distance_[k] = distance;
-    index_[k] = index;
-  }
-
-  std::size_t size_ = 0;
-  std::array<double, kNeighbours> distance_{};
-  std::array<std::size_t, kNeighbours> index_{};
-};
-
 // Of the first matches, by group.
 template <class Matches, class Group, class Position>
 std::vector<Candidates> candidatesOf(const Matches& matches, Group group, Position position) {
-  const std::size_t count = std::min(matches.size(), kCandidates);
+  const std::size_t count = std::min(matches.size(), Candidates::kMost);
   const auto groupOf = [&](std::size_t j) { return static_cast<std::size_t>(group(matches[j])); };
   std::vector<std::size_t> sizes;
   for (std::size_t j = 0; j < count; ++j) {
@@ -138,14 +80,12 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
 }
 
 OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence) {
-  std::vector<double> squaredDistances;
   const auto pairUp = [&](const auto& matches, auto group, auto position, auto isSame) {
-    Partners partners = noPartners(askersOfNeighbours(matches.size()), kNeighbours);
+    Partners partners = noPartners(askersOfNeighbours(matches.size()), Nearest::kMost);
     const std::vector<Candidates> candidates = candidatesOf(matches, group, position);
     for (std::size_t i = 0; i < partners.size; ++i) {
       const Candidates& others = candidates[static_cast<std::size_t>(group(matches[i]))];
-      others.squaredDistancesFrom(position(matches[i]), squaredDistances);
-      const Nearest nearest(others, squaredDistances, [&](std::size_t j) { return !isSame(i, j); });
+      const Nearest nearest(others, position(matches[i]), [&](std::size_t j) { return !isSame(i, j); });
       for (std::size_t k = 0; k < nearest.size(); ++k) setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
     }
     return partners;

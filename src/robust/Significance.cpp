@@ -29,32 +29,47 @@ Shares largest(const Shares& a, const Shares& b) {
   return result;
 }
 
+int mostFittedPoints(int parameters) { return (parameters + 1) / 2; }
+int fittedRays(int parameters, int fittedPoints) { return std::max(parameters - 2 * fittedPoints, 0); }
+
 // ChanceModel::logProbability at every two levels, if every correspondence counts. The tails of the binomial distributions, of which
-// it is made up, are computed once.
+// it is made up, are computed once: for each number of fitted points, and of the rays that are fitted besides.
 class LevelTails {
  public:
-  LevelTails(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares)
+  static LevelTails ofRays(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares, int parameters) {
+    return {squaredErrors, threshold, shares, parameters, [=](int fittedPoints) { return fittedRays(parameters, fittedPoints); }};
+  }
+  static LevelTails ofPoints(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares,
+                             int parameters) {
+    return {squaredErrors, threshold, shares, parameters, [](int fittedPoints) { return fittedPoints; }};
+  }
+  int inliers(int level) const { return inliers_[static_cast<std::size_t>(level)]; }
+  double tail(int level, int fittedPoints) const {
+    return tails_[static_cast<std::size_t>(level)][static_cast<std::size_t>(fittedPoints)];
+  }
+
+ private:
+  template <class Fitted>
+  LevelTails(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares, int parameters,
+             const Fitted& fitted)
       : inliers_(countLevels(squaredErrors.data(), squaredErrors.size(), threshold * threshold)) {
     const int all = static_cast<int>(squaredErrors.size());
     for (std::size_t level = 0; level < kLevels; ++level)
-      for (int fitted = 0; fitted <= correspondences::kMostParameters; ++fitted)
-        tails_[level][static_cast<std::size_t>(fitted)] = logTail(all - fitted, inliers_[level] - fitted, shares[level]);
+      for (int points = 0; points <= mostFittedPoints(parameters); ++points)
+        tails_[level][static_cast<std::size_t>(points)] =
+            logTail(all - fitted(points), inliers_[level] - fitted(points), shares[level]);
   }
-  int inliers(int level) const { return inliers_[static_cast<std::size_t>(level)]; }
-  double tail(int level, int fitted) const { return tails_[static_cast<std::size_t>(level)][static_cast<std::size_t>(fitted)]; }
 
- private:
   LevelCounts inliers_;
-  std::array<std::array<double, correspondences::kMostParameters + 1>, kLevels> tails_{};
+  std::array<std::array<double, (correspondences::kMostParameters + 1) / 2 + 1>, kLevels> tails_{};
 };
 
 double logProbability(const LevelTails& rays, const LevelTails& points, const PerKind<int>& levels, int parameters) {
   double worst = -std::numeric_limits<double>::infinity();
-  const int mostPoints = std::min((parameters + 1) / 2, points.inliers(levels.points));
+  const int mostPoints = std::min(mostFittedPoints(parameters), points.inliers(levels.points));
   for (int fittedPoints = 0; fittedPoints <= mostPoints; ++fittedPoints) {
-    const int fittedRays = std::max(parameters - 2 * fittedPoints, 0);
-    if (fittedRays > rays.inliers(levels.rays) && fittedPoints < mostPoints) continue;
-    worst = std::max(worst, points.tail(levels.points, fittedPoints) + rays.tail(levels.rays, fittedRays));
+    if (fittedRays(parameters, fittedPoints) > rays.inliers(levels.rays) && fittedPoints < mostPoints) continue;
+    worst = std::max(worst, points.tail(levels.points, fittedPoints) + rays.tail(levels.rays, fittedPoints));
   }
   return worst / std::log(10.);
 }
@@ -112,8 +127,8 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& 
     double logProbability;
     PerKind<int> levels;
   };
-  const LevelTails rays(errors.rays, scorer_.bounds().rays, shares.rays);
-  const LevelTails points(errors.points, scorer_.bounds().points, shares.points);
+  const LevelTails rays = LevelTails::ofRays(errors.rays, scorer_.bounds().rays, shares.rays, parameters_);
+  const LevelTails points = LevelTails::ofPoints(errors.points, scorer_.bounds().points, shares.points, parameters_);
   const double logBound = logFalseAlarms - logSamples_ - kLogChoices;
   std::vector<Choice> choices;
   for (int a = 0; a < kLevels; ++a)
