@@ -24,8 +24,9 @@ int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / k
 // Gain of the log-likelihood for which an optimization is repeated.
 constexpr double kLeastGain = 1;
 constexpr std::initializer_list<double> kDistanceFactors = {1.25, 1.6, 0.8, 0.6};
-// A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for.
-constexpr double kUnoptimizedShare = 0.5;
+// A pose from a minimal sample has less inliers than its optimum: the share of them that is tested for. One that has them all is given
+// up by mistake so often.
+constexpr double kUnoptimizedShare = 0.5, kGivenUp = kFalseRejection * kFalseRejection;
 // A standard deviation of log f below which the linear theory behind it can be relied on.
 constexpr double kSmallDeviation = 0.05;
 
@@ -140,6 +141,7 @@ void HybridSearch::tryBatch(int count) {
   workers_.forEach(count, [&](int i, std::size_t worker) {
     if (!isOutOfTime()) tryHypothesis(iterations_ + i + 1, workerStates_[worker]);
   });
+  for (WorkerState& worker : workerStates_) solveGathered(worker);
   std::optional<Candidate> best;
   for (const WorkerState& worker : workerStates_) {
     iterations_ += std::accumulate(worker.draws.begin(), worker.draws.end(), 0);
@@ -183,20 +185,20 @@ void HybridSearch::tryHypothesis(int number, WorkerState& worker) const {
   RandomStream random(options_.seed, static_cast<std::uint64_t>(number));
   const std::size_t chosen = choice_.choose(random.uniform());
   ++worker.draws[chosen];
-  const Strategy& strategy = choice_.strategies()[chosen];
-  const DrawnSample sample = data_.sampler.draw(strategy.size(), number, random);
-  const SampleReader reader(data_.arrays, lens_.isUnknown ? chosenOf(lens_.hypotheses, random) : 0);
-  const int found = solve(strategy, sample, reader, random, worker);
-  const OwnCorrespondences own{{sample.rays, sample.points}, {strategy.solver.rays, strategy.solver.points}};
-  for (int k = 0; k < found; ++k) {
-    QueryPose solution = worker.solutions[static_cast<std::size_t>(k)];
-    solution.distortion = reader.distortion();
-    considerSolution(solution, strategy, own, number, worker);
-  }
+  Hypothesis hypothesis;
+  hypothesis.number = number;
+  hypothesis.strategy = &choice_.strategies()[chosen];
+  hypothesis.sample = data_.sampler.draw(hypothesis.strategy->size(), number, random);
+  hypothesis.distortion = lens_.isUnknown ? chosenOf(lens_.hypotheses, random) : 0;
+  const SampleReader reader(data_.arrays, hypothesis.distortion);
+  const int found = solve(hypothesis, reader, random, worker);
+  considerSolutions(hypothesis, worker.solutions.data(), found, worker);
 }
 
-int HybridSearch::solve(const Strategy& strategy, const DrawnSample& sample, const SampleReader& reader, RandomStream& random,
+int HybridSearch::solve(const Hypothesis& hypothesis, const SampleReader& reader, RandomStream& random,
                         WorkerState& worker) const {
+  const Strategy& strategy = *hypothesis.strategy;
+  const DrawnSample& sample = hypothesis.sample;
   const SampleSize size = strategy.size();
   correspondences::RayMatch rays[kMaxSampleSize];
   correspondences::PointMatch points[kMaxSampleSize];
@@ -205,8 +207,36 @@ int HybridSearch::solve(const Strategy& strategy, const DrawnSample& sample, con
   if (isDegenerate(rays, size.rays, points, size.points)) return 0;
   FocalPose* poses = worker.solutions.data();
   if (strategy.isStaged()) return staged_->solve(sample, reader, scorer_.thresholds().rays, random, poses, worker.ownScores);
-  const double focalLength = strategy.solver.intrinsics.focalLength ? 1 : guess_.draw(random);
-  return solvers::solve(strategy.solver, rays, points, focalLength, poses);
+  const double focalLength = focalLengthOf(strategy, random);
+  if (strategy.solver.solveMany == nullptr) return solvers::solve(strategy.solver, rays, points, focalLength, poses);
+  if (worker.gathered.isFull() || !worker.gathered.takes(strategy)) solveGathered(worker);
+  worker.gathered.add(hypothesis, points, focalLength);
+  return 0;
+}
+
+// The unit, for a solver that estimates it.
+double HybridSearch::focalLengthOf(const Strategy& strategy, RandomStream& random) const {
+  return strategy.solver.intrinsics.focalLength ? 1 : guess_.draw(random);
+}
+
+void HybridSearch::solveGathered(WorkerState& worker) const {
+  GatheredSamples& samples = worker.gathered;
+  int found[solvers::kSideBySide];
+  samples.solve(worker.solutions.data(), found);
+  for (int i = 0; i < samples.count(); ++i)
+    considerSolutions(samples[i], worker.solutions.data() + i * samples[i].strategy->solver.maxSolutions, found[i], worker);
+  samples.clear();
+}
+
+void HybridSearch::considerSolutions(const Hypothesis& hypothesis, const FocalPose* poses, int count, WorkerState& worker) const {
+  const Strategy& strategy = *hypothesis.strategy;
+  const OwnCorrespondences own{{hypothesis.sample.rays, hypothesis.sample.points},
+                               {strategy.solver.rays, strategy.solver.points}};
+  for (int k = 0; k < count; ++k) {
+    QueryPose solution = poses[k];
+    solution.distortion = hypothesis.distortion;
+    considerSolution(solution, strategy, own, hypothesis.number, worker);
+  }
 }
 
 // Before anything is known of the data, a pose from three points must be seen by as large a share of the other points as is needed for
@@ -318,8 +348,7 @@ void HybridSearch::learnFrom(const Model& model) {
   const InlierCounts inliers = inlierCounts(model.pose);
   std::vector<double> probabilities;
   for (const Strategy& strategy : choice_.strategies())
-    probabilities.push_back((1 - kFalseRejection) * strategy.yield() *
-                            data_.sampler.allInlierProbability(strategy.size(), inliers));
+    probabilities.push_back((1 - kGivenUp) * strategy.yield() * data_.sampler.allInlierProbability(strategy.size(), inliers));
   choice_.setAllInlierProbabilities(probabilities);
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };

@@ -11,6 +11,7 @@
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/ChanceModel.hpp"
 #include "robust/FocalLengthGuess.hpp"
+#include "robust/GatheredSamples.hpp"
 #include "robust/Lens.hpp"
 #include "robust/LocalOptimizer.hpp"
 #include "robust/PoseScorer.hpp"
@@ -82,6 +83,7 @@ class HybridSearch {
   // What one worker found in a batch. Nothing is kept of the other hypotheses: their number has no bound.
   struct WorkerState {
     std::array<FocalPose, solvers::kMaxSolutions> solutions;  // scratch
+    GatheredSamples gathered;                                 // not yet solved
     std::vector<int> draws;                                   // per strategy
     PerKind<std::vector<double>> errors;                      // scratch
     StagedSampling::OwnScores ownScores;                      // of the batch
@@ -96,9 +98,11 @@ class HybridSearch {
   // The size of the next batch after one of this size.
   int nextBatch(int batch) const;
   void tryHypothesis(int number, WorkerState& worker) const;
-  // The poses of a sample to worker.solutions; their number.
-  int solve(const Strategy& strategy, const DrawnSample& sample, const SampleReader& reader, RandomStream& random,
-            WorkerState& worker) const;
+  // The poses of a sample to worker.solutions; their number. Those of a sample that is gathered follow when it is solved with others.
+  int solve(const Hypothesis& hypothesis, const SampleReader& reader, RandomStream& random, WorkerState& worker) const;
+  double focalLengthOf(const Strategy& strategy, RandomStream& random) const;
+  void solveGathered(WorkerState& worker) const;
+  void considerSolutions(const Hypothesis& hypothesis, const FocalPose* poses, int count, WorkerState& worker) const;
   void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                         WorkerState& worker) const;
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;

@@ -28,7 +28,7 @@ class SequentialTest {
   bool isHopeless(double score) const { return ratio_ < kReject || score + static_cast<double>(left_) <= expected_.score; }
 
  private:
-  static constexpr double kReject = -4.605170185988091;  // log(kFalseRejection)
+  static constexpr double kReject = -2.302585092994046;  // log(kFalseRejection)
 
   static int countIn(const int* indices, int count, std::size_t begin, std::size_t end) {
     return static_cast<int>(std::count_if(indices, indices + count, [=](int index) {

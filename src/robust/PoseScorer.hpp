@@ -49,8 +49,9 @@ struct OwnCorrespondences {
   PerKind<int> count;
 };
 
-// Probability that the sequential test gives up a pose that has the good shares.
-constexpr double kFalseRejection = 0.01;
+// Probability that the sequential test gives up a pose that has the good shares. One that has twice as large shares is given up with
+// about the square of it.
+constexpr double kFalseRejection = 0.1;
 
 class PoseScorer {
  public:

@@ -35,6 +35,16 @@ int solve(const MinimalSolver& solver, const RayMatch* rays, const PointMatch* p
   return count;
 }
 
+void solveMany(const MinimalSolver& solver, PointMatch* points, const double* focalLengths, int samples, FocalPose* solutions,
+               int* found) {
+  for (int i = 0; i < samples; ++i)
+    for (PointMatch* point = points + i * solver.points; point != points + (i + 1) * solver.points; ++point)
+      *point = ofFocalLengthOne(*point, focalLengths[i]);
+  solver.solveMany(points, samples, solutions, found);
+  for (int i = 0; i < samples; ++i)
+    for (int k = 0; k < found[i]; ++k) solutions[i * solver.maxSolutions + k].focalLength = focalLengths[i];
+}
+
 bool canGive(const MinimalSolver& solver, const RayMatch* rays) {
   if (solver.draw == RayDraw::OneCamera)
     return std::all_of(rays, rays + solver.rays, [rays](const RayMatch& ray) { return ray.camera == rays[0].camera; });

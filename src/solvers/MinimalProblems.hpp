@@ -47,6 +47,7 @@ int solve(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 
 namespace known_focal {
 int p3p(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
+void p3pMany(const PointMatch* points, int samples, FocalPose* solutions, int* found);
 // Rays of one camera or of two.
 int h22(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 // All rays from one centre.
@@ -63,7 +64,7 @@ constexpr correspondences::Intrinsics kUnknownFocalLength = {true, false}, kKnow
 // whose draw can give the sample at hand.
 // clang-format off
 inline constexpr MinimalSolver kMinimalSolvers[] = {
-    // id, name, rays, points, draw, most solutions, cost, prior, exact coordinates, follows paths, intrinsics, function
+    // id, name, rays, points, draw, most solutions, cost, prior, exact coordinates, follows paths, intrinsics, functions
     {Solver::P4Pf,  "p4pf",           0, 4, RayDraw::Uniform,    6, 1.4, 0.1, 6, false, kUnknownFocalLength, &three_points::p4pf},
     {Solver::P35Pf, "p35pf",          0, 4, RayDraw::Uniform,   10, 2.0, 0.1, 7, false, kUnknownFocalLength, &three_points::p35pf},
     {Solver::H13f,  "h13f",           1, 3, RayDraw::Uniform,   12, 2.7, 1,   6, false, kUnknownFocalLength, &three_points::h13f},
@@ -73,7 +74,7 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   1,   0, false, kUnknownFocalLength, &h70f::solve},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 1,   0, true,  kUnknownFocalLength, &h70f::solve},
-    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 1,  6, false, kKnownFocalLength,   &known_focal::p3p},
+    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 1,  6, false, kKnownFocalLength,   &known_focal::p3p, &known_focal::p3pMany},
     {Solver::H22,   "h22",            2, 2, RayDraw::Uniform,   16, 2.0, 1,   4, false, kKnownFocalLength,   &known_focal::h22},
     {Solver::H41,   "h41",            4, 1, RayDraw::OneCamera, 10, 4.0, 1,   2, false, kKnownFocalLength,   &known_focal::h41},
     {Solver::H60,   "h60",            6, 0, RayDraw::AllButOne, 10, 4.0, 1,   0, false, kKnownFocalLength,   &known_focal::h60},
@@ -94,6 +95,10 @@ constexpr int kMaxSampleSize = std::max(largest(&MinimalSolver::rays), largest(&
 // The solutions of a sample of a camera with this focal length. Solvers that estimate it do not use it; the others find nothing for
 // one that is not positive.
 int solve(const MinimalSolver& solver, const RayMatch* rays, const PointMatch* points, double focalLength, FocalPose* solutions);
+
+// The same for samples side by side (SolveManyFunction), each with a focal length of its own.
+void solveMany(const MinimalSolver& solver, PointMatch* points, const double* focalLengths, int samples, FocalPose* solutions,
+               int* found);
 
 // Whether this way to draw can give these rays of a sample.
 bool canGive(const MinimalSolver& solver, const RayMatch* rays);

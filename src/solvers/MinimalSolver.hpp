@@ -24,6 +24,12 @@ using correspondences::RayMatch;
 //  * no allocation, no global state, bounded time.
 using SolveFunction = int (*)(const RayMatch* rays, const PointMatch* points, FocalPose* solutions);
 
+// The same for several samples of points side by side, at most kSideBySide, which takes less time than one after the other: those of
+// sample i begin at points[i * solver.points], its solutions at solutions[i * solver.maxSolutions], and found[i] is their number. They
+// do not depend on the other samples.
+using SolveManyFunction = void (*)(const PointMatch* points, int samples, FocalPose* solutions, int* found);
+constexpr int kSideBySide = 8;
+
 // How the rays of a sample are chosen among the rig cameras.
 enum class RayDraw {
   Uniform,    // every set of rays is equally likely
@@ -49,6 +55,7 @@ struct MinimalSolver {
   bool followsPaths;                       // a homotopy: a path, and with it a solution, may be lost, about one in ten thousand
   correspondences::Intrinsics intrinsics;  // what it estimates of the query's camera
   SolveFunction solve;
+  SolveManyFunction solveMany = nullptr;  // null: one at a time
 };
 
 }  // namespace solvers

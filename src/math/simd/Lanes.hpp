@@ -160,10 +160,15 @@ HYBRIDGV_INLINE Doubles squareRoot(Doubles x) {
 }
 #endif
 HYBRIDGV_INLINE double squareRoot(double x) { return __builtin_sqrt(x); }
+HYBRIDGV_INLINE unsigned bits(bool mask) { return mask ? 1 : 0; }
 
 template <class M>
 HYBRIDGV_INLINE bool any(M mask) {
   return bits(mask) != 0;
+}
+template <class M>
+HYBRIDGV_INLINE M negated(M mask) {
+  return mask == M{};
 }
 // From the first lane to the last.
 template <class V>

@@ -1,44 +1,200 @@
-// The pose from a triangle of points and their depths.
+// The pose from a triangle of points and their depths, in every lane.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "solvers/MinimalSolver.hpp"
+#include "math/Vec3.hpp"
 
 namespace hybridgv {
 namespace solvers {
 namespace known_focal {
+namespace HYBRIDGV_INSTRUCTION_SET {
+
+using namespace math;
+
+template <class V>
+HYBRIDGV_INLINE V larger(V a, V b, V c) {
+  return math::larger(math::larger(a, b), c);
+}
+template <class V>
+HYBRIDGV_INLINE V largestOf(const Vec3<V>& v) {
+  return larger(absolute(v.x), absolute(v.y), absolute(v.z));
+}
+template <class V>
+HYBRIDGV_INLINE V squareOf(const Vec3<V>& v) {
+  return dot(v, v);
+}
+template <class V>
+HYBRIDGV_INLINE Vec3<V> normalized(const Vec3<V>& v) {
+  return (1 / squareRoot(squareOf(v))) * v;
+}
+template <class V>
+HYBRIDGV_INLINE V one() {
+  return broadcast<V>(1);
+}
+
+// Three vectors: the columns of a matrix.
+template <class V>
+struct Columns {
+  Vec3<V> x, y, z;
+};
+// a b^T
+template <class V>
+HYBRIDGV_INLINE Columns<V> timesTransposed(const Columns<V>& a, const Columns<V>& b) {
+  const auto column = [&](V x, V y, V z) { return x * a.x + y * a.y + z * a.z; };
+  return {column(b.x.x, b.y.x, b.z.x), column(b.x.y, b.y.y, b.z.y), column(b.x.z, b.y.z, b.z.z)};
+}
+template <class V>
+HYBRIDGV_INLINE Vec3<V> chosen(Mask<V> mask, const Vec3<V>& yes, const Vec3<V>& no) {
+  return {select<V>(mask, yes.x, no.x), select<V>(mask, yes.y, no.y), select<V>(mask, yes.z, no.z)};
+}
+template <class V>
+HYBRIDGV_INLINE Columns<V> chosen(Mask<V> mask, const Columns<V>& yes, const Columns<V>& no) {
+  return {chosen<V>(mask, yes.x, no.x), chosen<V>(mask, yes.y, no.y), chosen<V>(mask, yes.z, no.z)};
+}
+
+// A frame and where there is one.
+template <class V>
+struct Frame {
+  Columns<V> axes;
+  Mask<V> exists;
+};
 
 // Three points and the bearings at which a camera of focal length 1 sees them. Lengths are measured in a unit in which the squares
 // of the triangle's sides have the sum 1.
+template <class V>
 class TrianglePose {
  public:
-  // False for points that are collinear or at one place.
-  bool set(const PointMatch* points);
+  using M = Mask<V>;
 
-  const Eigen::Vector3d& bearing(int i) const { return bearings_[i]; }
-  double squaredSide(int i, int j) const { return squaredSides_[i + j - 1]; }
+  TrianglePose(const Vec3<V> (&points)[3], const V (&u)[3], const V (&v)[3])
+      : first_(points[0]), u_{u[0], u[1], u[2]}, v_{v[0], v[1], v[2]} {
+    imageScale_ = V{};
+    for (int i = 0; i < 3; ++i) {
+      bearings_[i] = bearingOf(u[i], v[i]);
+      imageScale_ = larger(imageScale_, absolute(u[i]), absolute(v[i]));
+    }
+    setSides(points[1] - points[0], points[2] - points[0]);
+    setDuals();
+  }
 
-  // Where the depths along the bearings are those of a congruent triangle, the pose; false if its image misses the image points,
-  // relative to the largest image coordinate, by more than 1e-7.
-  bool set(const Eigen::Vector3d& depths, FocalPose& pose) const;
+  // Not where the points are collinear or at one place.
+  M isTriangle() const { return isTriangle_; }
+  const Vec3<V>& bearing(int i) const { return bearings_[i]; }
+  // Of the pairs 01, 02, 12.
+  V squaredSide(int i, int j) const { return squaredSides_[i + j - 1]; }
+
+  // Where the depths along the bearings are those of a congruent triangle, the pose; not where its image misses the image points,
+  // relative to the largest image coordinate, by more than 1e-7. `asked`: the lanes that matter.
+  M set(M asked, const V (&depths)[3], Columns<V>& rotation, Vec3<V>& position) const {
+    const Vec3<V> first = depths[0] * bearings_[0];
+    const M isSet = setRotation(asked, depths[1] * bearings_[1] - first, depths[2] * bearings_[2] - first, rotation);
+    position = first_ - unit_ * (first.x * rotation.x + first.y * rotation.y + first.z * rotation.z);
+    return isSet & isMet(0, rotation, first) & isMet(1, rotation, first);
+  }
 
  private:
-  void setDuals();
-  // From the depths' differences a, b of the other points to the first.
-  bool setRotation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Eigen::Matrix3d& rotation) const;
-  bool isMet(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& first) const;
+  // Sine of the angle at a point of a triangle that counts as collinear.
+  static constexpr double kCollinear = 1e-12;
+  static constexpr double kImageTolerance = 1e-7;
+  // Sine of the angle at a point of a triangle whose duals have lost digits, and a product of sides whose square is not small.
+  static constexpr double kThin = 1e-2, kShort = 1e-50;
 
-  const PointMatch* points_;
-  Eigen::Vector3d bearings_[3];
-  double squaredSides_[3];  // of the pairs 01, 02, 12
-  double unit_;
-  Eigen::Vector3d fromFirst_[3];  // in that unit; [0] is zero
-  Eigen::Matrix3d duals_;         // columns: the basis dual to both sides from the first point and their vector product
-  bool isThin_;                   // so that rounding errors show in the duals
-  double imageScale_;             // the largest image coordinate
+  // (u, v, 1), normalized, without overflow.
+  static Vec3<V> bearingOf(V u, V v) {
+    const V square = u * u + v * v + 1;
+    V scale = one<V>();
+    const M isHuge = negated<M>(square < 1e300);
+    if (any(isHuge)) scale = select<V>(isHuge, 1 / math::larger(absolute(u), absolute(v)), scale);
+    const Vec3<V> bearing{scale * u, scale * v, scale};
+    return normalized(bearing);
+  }
+
+  void setSides(Vec3<V> a, Vec3<V> b) {
+    const V extent = math::larger(largestOf(a), largestOf(b));
+    const M isModerate = (extent > 1e-100) & (extent < 1e100);  // its square is a double
+    V scale = one<V>();
+    if (any(negated<M>(isModerate))) {
+      scale = select<V>(isModerate, scale, extent);
+      a = (1 / scale) * a;
+      b = (1 / scale) * b;
+    }
+    const V aa = squareOf(a), bb = squareOf(b), cc = squareOf(b - a), sum = aa + bb + cc, root = squareRoot(sum);
+    const V inverse = 1 / sum, inverseRoot = inverse * root;
+    unit_ = scale * root;
+    isTriangle_ = (extent > 0) & (unit_ < kHuge);
+    sides_[0] = inverseRoot * a;
+    sides_[1] = inverseRoot * b;
+    squaredSides_[0] = aa * inverse;
+    squaredSides_[1] = bb * inverse;
+    squaredSides_[2] = cc * inverse;
+  }
+
+  // With the vectors a, b of both sides, n = a x b and |n|^2 = |a|^2 |b|^2 - (a.b)^2.
+  void setDuals() {
+    const Vec3<V>&a = sides_[0], &b = sides_[1], n = cross(a, b);
+    const V aa = squaredSides_[0], bb = squaredSides_[1], ab = dot(a, b), nn = squareOf(n), inverse = 1 / nn;
+    isThin_ = negated<M>((aa * bb > kShort) & (nn > kThin * kThin * (aa * bb)));
+    duals_ = {(inverse * bb) * a - (inverse * ab) * b, (inverse * aa) * b - (inverse * ab) * a, inverse * n};
+    if (any(isThin_)) isTriangle_ = isTriangle_ & (negated<M>(isThin_) | frameOf(a, b).exists);
+  }
+
+  // Shorter or longer, where the square of the length would be beyond the doubles.
+  static Vec3<V> moderate(const Vec3<V>& v) {
+    const V square = squareOf(v);
+    const M isModerate = (square > 1e-200) & (square < 1e200);
+    return chosen<V>(isModerate, v, (1 / largestOf(v)) * v);
+  }
+
+  // Orthonormal columns: along a, in the plane of a and b, normal to it. None where these are parallel.
+  static Frame<V> frameOf(const Vec3<V>& a, const Vec3<V>& b) {
+    const Vec3<V> first = normalized(moderate(a)), second = moderate(b), product = cross(first, second);
+    const M exists = squareOf(product) > kCollinear * kCollinear * squareOf(second);
+    // Of vectors that are almost parallel the product is perpendicular to neither, by as much as has cancelled in it.
+    const Vec3<V> normal = normalized(product - dot(first, product) * first);
+    return {{first, cross(normal, first), normal}, exists};
+  }
+
+  // From the depths' differences a, b of the other points to the first. The rotation is that of the duals, as the triangle is seen to
+  // its own. Where that is not one to rounding, of frames that are orthonormal in any case.
+  M setRotation(M asked, const Vec3<V>& a, const Vec3<V>& b, Columns<V>& rotation) const {
+    const Columns<V> ofDuals = timesTransposed(duals_, {a, b, cross(a, b)});
+    const M isSet = orthonormalize(ofDuals, rotation) & negated<M>(isThin_);
+    const M isLeft = asked & negated<M>(isSet);
+    if (!any(isLeft)) return isSet;
+    const Frame<V> own = frameOf(sides_[0], sides_[1]), seen = frameOf(a, b);
+    rotation = chosen<V>(isSet, rotation, timesTransposed(own.axes, seen.axes));
+    return isSet | (own.exists & seen.exists);
+  }
+
+  // A matrix that is almost a rotation becomes one to rounding: 1 / |v| is 3/2 - |v|^2 / 2, to the square of the small difference.
+  static M orthonormalize(const Columns<V>& R, Columns<V>& rotation) {
+    constexpr double kSmall = 1e-8;
+    const V xx = squareOf(R.x), yy = squareOf(R.y), xy = dot(R.x, R.y);
+    rotation.x = (1.5 - 0.5 * xx) * R.x;
+    rotation.y = (1.5 - 0.5 * yy) * R.y - xy * rotation.x;
+    rotation.z = cross(rotation.x, rotation.y);
+    return (absolute(xx - 1) < kSmall) & (absolute(yy - 1) < kSmall) & (absolute(xy) < kSmall);
+  }
+
+  M isMet(int side, const Columns<V>& rotation, const Vec3<V>& first) const {
+    const Vec3<V>& s = sides_[side];
+    const V x = dot(rotation.x, s) + first.x, y = dot(rotation.y, s) + first.y, z = dot(rotation.z, s) + first.z;
+    const V allowed = kImageTolerance * (imageScale_ * z);
+    return (absolute(x - u_[side + 1] * z) <= allowed) & (absolute(y - v_[side + 1] * z) <= allowed);
+  }
+
+  static constexpr double kHuge = 1.7e308;
+
+  Vec3<V> first_, bearings_[3];
+  V u_[3], v_[3];
+  V squaredSides_[3];  // of the pairs 01, 02, 12
+  V unit_;
+  Vec3<V> sides_[2];  // from the first point, in that unit
+  Columns<V> duals_;  // the basis dual to both sides and their vector product
+  M isTriangle_, isThin_;
+  V imageScale_;  // the largest image coordinate
 };
 
+}  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace known_focal
 }  // namespace solvers
 }  // namespace hybridgv
