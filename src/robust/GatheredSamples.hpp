@@ -1,6 +1,7 @@
 // Samples that wait to be solved side by side.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "robust/Sampler.hpp"

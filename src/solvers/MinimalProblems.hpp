@@ -74,7 +74,7 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {std::nullopt,  "sixpt_onefocal", 6, 0, RayDraw::OneCamera,  9, 2.6, 0,   0, false, kUnknownFocalLength, &one_centre::sixptOnefocal},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   1,   0, false, kUnknownFocalLength, &h70f::solve},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 1,   0, true,  kUnknownFocalLength, &h70f::solve},
-    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.35, 1,  6, false, kKnownFocalLength,   &known_focal::p3p, &known_focal::p3pMany},
+    {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.15, 1,  6, false, kKnownFocalLength,   &known_focal::p3p, &known_focal::p3pMany},
     {Solver::H22,   "h22",            2, 2, RayDraw::Uniform,   16, 2.0, 1,   4, false, kKnownFocalLength,   &known_focal::h22},
     {Solver::H41,   "h41",            4, 1, RayDraw::OneCamera, 10, 4.0, 1,   2, false, kKnownFocalLength,   &known_focal::h41},
     {Solver::H60,   "h60",            6, 0, RayDraw::AllButOne, 10, 4.0, 1,   0, false, kKnownFocalLength,   &known_focal::h60},
@@ -89,6 +89,14 @@ constexpr int largest(int MinimalSolver::*column) {
   return result;
 }
 constexpr int kMaxSolutions = largest(&MinimalSolver::maxSolutions);
+// Of samples side by side.
+constexpr int mostSolutionsSideBySide() {
+  int result = 0;
+  for (const MinimalSolver& solver : kMinimalSolvers)
+    if (solver.solveMany != nullptr) result = std::max(result, kSideBySide * solver.maxSolutions);
+  return result;
+}
+static_assert(mostSolutionsSideBySide() <= kMaxSolutions, "there is room for them where there is for those of one sample");
 // Correspondences of one kind in a sample.
 constexpr int kMaxSampleSize = std::max(largest(&MinimalSolver::rays), largest(&MinimalSolver::points));
 

@@ -9,6 +9,7 @@ namespace solvers {
 namespace known_focal {
 
 HYBRIDGV_VERSIONS(P3pKernel, kP3pKernel)
+static_assert(kP3pSamples == kSideBySide, "as many as p3pMany is given");
 
 const P3pKernel& p3pKernel(math::SimdLevel level) {
   return math::choose(level, baseline::kP3pKernel, avx2::kP3pKernel, avx512::kP3pKernel);
