@@ -5,7 +5,7 @@
 //
 // Every row cycles through 1000 different random problems. The repetitions of all rows are mixed in random order, so that other
 // work on the machine burdens all rows alike; the table shows medians. A row per solver and way to share its rays among rig
-// cameras: h51f_32 has three rays of one camera and two of another.
+// cameras: h51f_32 has three rays of one camera and two of another. p3p_side_by_side solves eight problems at once, as hybridRansac does.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
@@ -83,6 +83,55 @@ void registerSolver(const SolverConfiguration& row) {
   });
 }
 
+// The same problems without an adapter, as many at once as the solver takes; the time is that of one.
+struct SideBySideData {
+  static constexpr std::size_t kSamples = solvers::kSideBySide;
+  std::vector<solvers::PointMatch> points;
+  std::vector<double> focalLengths;
+  Statistics statistics;
+
+  explicit SideBySideData(const SolverConfiguration& row) {
+    for (std::uint64_t i = 0; i < kProblems; i += kSamples) {
+      std::vector<test::MinimalProblem> problems;
+      for (std::uint64_t k = 0; k < kSamples; ++k) {
+        test::Random random(kSeed, i + k);
+        problems.push_back(test::makeMinimalProblem(random, row.raysPerCamera, row.solver->points));
+        points.insert(points.end(), problems.back().points.begin(), problems.back().points.end());
+        focalLengths.push_back(problems.back().truth.focalLength);
+      }
+      const std::vector<FocalPoses> solutions = solve(row, i);
+      for (std::size_t k = 0; k < kSamples; ++k)
+        statistics.add(solutions[k].size(), test::distanceToNearest(solutions[k], problems[k].truth));
+    }
+  }
+
+  std::vector<FocalPoses> solve(const SolverConfiguration& row, std::size_t first) const {
+    const auto size = static_cast<std::size_t>(row.solver->points), most = static_cast<std::size_t>(row.solver->maxSolutions);
+    std::vector<solvers::PointMatch> samples(points.begin() + static_cast<std::ptrdiff_t>(first * size),
+                                             points.begin() + static_cast<std::ptrdiff_t>((first + kSamples) * size));
+    FocalPose solutions[solvers::kMaxSolutions];
+    int found[kSamples];
+    solvers::solveMany(*row.solver, samples.data(), &focalLengths[first], static_cast<int>(kSamples), solutions, found);
+    std::vector<FocalPoses> result;
+    for (std::size_t k = 0; k < kSamples; ++k)
+      result.emplace_back(solutions + k * most, solutions + k * most + static_cast<std::size_t>(found[k]));
+    return result;
+  }
+};
+
+void registerSideBySide(const SolverConfiguration& row) {
+  const auto run = [row, data = std::shared_ptr<SideBySideData>()](benchmark::State& state) mutable {
+    if (!data) data = std::make_shared<SideBySideData>(row);
+    std::size_t i = 0;
+    while (state.KeepRunningBatch(SideBySideData::kSamples)) {
+      benchmark::DoNotOptimize(data->solve(row, i));
+      i = (i + SideBySideData::kSamples) % kProblems;
+    }
+    data->statistics.writeTo(state);
+  };
+  benchmark::RegisterBenchmark((row.name + "_side_by_side").c_str(), run);
+}
+
 struct Gp3pData {
   std::vector<std::unique_ptr<Gp3pProblem>> problems;
   Statistics statistics;
@@ -134,7 +183,10 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
   registerGp3p();
-  for (const SolverConfiguration& row : hybridgv::test::solverConfigurations()) registerSolver(row);
+  for (const SolverConfiguration& row : hybridgv::test::solverConfigurations()) {
+    registerSolver(row);
+    if (row.solver->solveMany != nullptr) registerSideBySide(row);
+  }
   TableReporter reporter("gp3p", markdown);
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();

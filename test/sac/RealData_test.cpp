@@ -115,7 +115,7 @@ TEST_F(RealModel, KermitIsTwiceAsAccurateWithRays) {
   for (const double outlierShare : {0., 0.3, 0.5}) {
     hybrid.clear();
     points2d3d.clear();
-    localizeAll("kermit/bundle.out", outlierShare, 10);
+    localizeAll("kermit/bundle.out", outlierShare, 40);
     if (IsSkipped()) return;
     EXPECT_LT(2 * quantile(hybrid, 0.5), quantile(points2d3d, 0.5)) << outlierShare;
     EXPECT_LT(quantile(hybrid, 0.9), quantile(points2d3d, 0.9)) << outlierShare;

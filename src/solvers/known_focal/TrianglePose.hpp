@@ -26,6 +26,11 @@ template <class V>
 HYBRIDGV_INLINE Vec3<V> normalized(const Vec3<V>& v) {
   return (1 / squareRoot(squareOf(v))) * v;
 }
+// Also by numbers whose reciprocal is none.
+template <class V>
+HYBRIDGV_INLINE Vec3<V> divided(const Vec3<V>& v, V by) {
+  return {v.x / by, v.y / by, v.z / by};
+}
 template <class V>
 HYBRIDGV_INLINE V one() {
   return broadcast<V>(1);
@@ -100,11 +105,9 @@ class TrianglePose {
 
   // (u, v, 1), normalized, without overflow.
   static Vec3<V> bearingOf(V u, V v) {
-    const V square = u * u + v * v + 1;
-    V scale = one<V>();
-    const M isHuge = negated<M>(square < 1e300);
-    if (any(isHuge)) scale = select<V>(isHuge, 1 / math::larger(absolute(u), absolute(v)), scale);
-    const Vec3<V> bearing{scale * u, scale * v, scale};
+    const M isHuge = negated<M>(u * u + v * v < 1e300);
+    Vec3<V> bearing{u, v, one<V>()};
+    if (any(isHuge)) bearing = divided(bearing, select<V>(isHuge, math::larger(absolute(u), absolute(v)), one<V>()));
     return normalized(bearing);
   }
 
@@ -114,8 +117,8 @@ class TrianglePose {
     V scale = one<V>();
     if (any(negated<M>(isModerate))) {
       scale = select<V>(isModerate, scale, extent);
-      a = (1 / scale) * a;
-      b = (1 / scale) * b;
+      a = divided(a, scale);
+      b = divided(b, scale);
     }
     const V aa = squareOf(a), bb = squareOf(b), cc = squareOf(b - a), sum = aa + bb + cc, root = squareRoot(sum);
     const V inverse = 1 / sum, inverseRoot = inverse * root;
@@ -141,7 +144,7 @@ class TrianglePose {
   static Vec3<V> moderate(const Vec3<V>& v) {
     const V square = squareOf(v);
     const M isModerate = (square > 1e-200) & (square < 1e200);
-    return chosen<V>(isModerate, v, (1 / largestOf(v)) * v);
+    return any(negated<M>(isModerate)) ? divided(v, select<V>(isModerate, one<V>(), largestOf(v))) : v;
   }
 
   // Orthonormal columns: along a, in the plane of a and b, normal to it. None where these are parallel.
