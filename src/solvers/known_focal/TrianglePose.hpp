@@ -81,6 +81,21 @@ class TrianglePose {
     setDuals();
   }
 
+  // The same in all lanes.
+  template <class S>
+  explicit TrianglePose(const TrianglePose<S>& one)
+      : first_(all(one.first_)),
+        bearings_{all(one.bearings_[0]), all(one.bearings_[1]), all(one.bearings_[2])},
+        u_{all(one.u_[0]), all(one.u_[1]), all(one.u_[2])},
+        v_{all(one.v_[0]), all(one.v_[1]), all(one.v_[2])},
+        squaredSides_{all(one.squaredSides_[0]), all(one.squaredSides_[1]), all(one.squaredSides_[2])},
+        unit_(all(one.unit_)),
+        sides_{all(one.sides_[0]), all(one.sides_[1])},
+        duals_{all(one.duals_.x), all(one.duals_.y), all(one.duals_.z)},
+        isTriangle_(all(one.isTriangle_ ? 1 : 0) > 0),
+        isThin_(all(one.isThin_ ? 1 : 0) > 0),
+        imageScale_(all(one.imageScale_)) {}
+
   // Not where the points are collinear or at one place.
   M isTriangle() const { return isTriangle_; }
   const Vec3<V>& bearing(int i) const { return bearings_[i]; }
@@ -97,6 +112,12 @@ class TrianglePose {
   }
 
  private:
+  template <class W>
+  friend class TrianglePose;
+
+  static V all(double x) { return broadcast<V>(x); }
+  static Vec3<V> all(const Vec3<double>& v) { return {all(v.x), all(v.y), all(v.z)}; }
+
   // Sine of the angle at a point of a triangle that counts as collinear.
   static constexpr double kCollinear = 1e-12;
   static constexpr double kImageTolerance = 1e-7;
