@@ -166,6 +166,21 @@ template <class M>
 HYBRIDGV_INLINE bool any(M mask) {
   return bits(mask) != 0;
 }
+// Of masks, the same for those of one lane, for which & and | are meant for numbers.
+template <class M>
+HYBRIDGV_INLINE M allOf(M a, M b) {
+  return a & b;
+}
+template <class M>
+HYBRIDGV_INLINE M anyOf(M a, M b) {
+  return a | b;
+}
+HYBRIDGV_INLINE bool allOf(bool a, bool b) { return a && b; }
+HYBRIDGV_INLINE bool anyOf(bool a, bool b) { return a || b; }
+template <class M>
+HYBRIDGV_INLINE M allOf(M a, M b, M c) {
+  return allOf(allOf(a, b), c);
+}
 template <class M>
 HYBRIDGV_INLINE M negated(M mask) {
   return mask == M{};

@@ -66,7 +66,7 @@ HYBRIDGV_INLINE V outermostRoot(V p, V F) {
   Mask<V> isZero = Mask<V>{};
   if (any(negated<Mask<V>>(areThreeReal))) {
     const V cube = (absF + squareRoot(square)) / 2, u = cubeRootEstimate(cube);
-    isZero = negated<Mask<V>>(areThreeReal | (cube > kLeast));
+    isZero = negated<Mask<V>>(anyOf<Mask<V>>(areThreeReal, cube > kLeast));
     y = select<V>(areThreeReal, y, u + p / u);  // where p < 0 the two may cancel
   }
   y = newtonStep(halleyStep(y, p, absF), p, absF);

@@ -71,7 +71,7 @@ class P3pDepths {
     const auto squaredSine = [&](int i, int j) { return squareOf(cross(pose.bearing(i), pose.bearing(j))); };
     const Pairs<V> s{squaredSine(0, 1), squaredSine(0, 2), squaredSine(1, 2)};
     const Pairs<V>&a = equations.squaredDistance, &c = equations.cosine;
-    const M asked = pose.isTriangle() & (larger(s.of12, s.of13, s.of23) > kOneDirection);
+    const M asked = allOf<M>(pose.isTriangle(), larger(s.of12, s.of13, s.of23) > kOneDirection);
     if (!any(asked)) return;
     const Conic<V> D1{a.of23, -a.of23 * c.of12, V{}, a.of23 - a.of12, a.of12 * c.of23, -a.of12};
     const Conic<V> D2{a.of23, V{}, -a.of23 * c.of13, -a.of13, a.of13 * c.of23, a.of23 - a.of13};
@@ -100,7 +100,7 @@ class P3pDepths {
       return select<V>(isThird, third, select<V>(isSecond, second, first));
     };
     const V square = -ofLargest(adjugate.xx, adjugate.yy, adjugate.zz);
-    asked = asked & (square > 0);
+    asked = allOf<M>(asked, square > 0);
     if (!any(asked)) return;
     const V entry = ofLargest(D.yz, D.xz, D.xy);
     const V r = -1 / squareRoot(square), scale = select<V>(entry < 0, r, -r);  // s among it
@@ -121,7 +121,7 @@ class P3pDepths {
   void intersect(int n, M asked, const Vec3<V>& line, const Conic<V>& D) {
     const M xIsNegative = line.x < 0, yIsNegative = line.y < 0, zIsNegative = line.z < 0;
     const M isThird = xIsNegative == yIsNegative, isSecond = xIsNegative == zIsNegative;
-    asked = asked & negated<M>(isThird & isSecond);
+    asked = allOf(asked, negated<M>(allOf(isThird, isSecond)));
     if (!any(asked)) return;
     const auto ofOther = [&](V first, V second, V third) {
       return select<V>(isThird, third, select<V>(isSecond, second, first));
@@ -134,14 +134,14 @@ class P3pDepths {
     const V alpha = lc * (lc * Daa + la * Dac) + la * ac, beta = lc * (lc * Dab + la * Dbc) + lb * ac,
             gamma = lc * (lc * Dbb + lb * Dbc) + lb * bc;
     const V discriminant = beta * beta - alpha * gamma;
-    asked = asked & (discriminant > -kDouble * (beta * beta));
+    asked = allOf<M>(asked, discriminant > -kDouble * (beta * beta));
     if (!any(asked)) return;
     const V root = squareRoot(math::larger(discriminant, V{})), h = -(beta + select<V>(beta < 0, -root, root));
     const auto depthsAt = [&](V s, V t) {
       const V a = lc * s, b = lc * t, c = la * s + lb * t;
       return Vec3<V>{ofOther(c, b, a), ofOther(a, c, b), ofOther(b, a, c)};
     };
-    const M first = asked & (h * alpha > 0), second = asked & (h * gamma > 0);
+    const M first = allOf<M>(asked, h * alpha > 0), second = allOf<M>(asked, h * gamma > 0);
     set(n, first, depthsAt(absolute(h), absolute(alpha)));
     set(n + 1, second, depthsAt(absolute(gamma), absolute(h)));
   }

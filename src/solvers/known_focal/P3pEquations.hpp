@@ -61,16 +61,16 @@ HYBRIDGV_INLINE void solveExactly(const P3pEquations<V>& equations, Vec3<V>& dep
   for (int iteration = 0; iteration < 3; ++iteration) {
     const V r1 = (left.of12 - wanted.of12) / 2, r2 = (left.of13 - wanted.of13) / 2, r3 = (left.of23 - wanted.of23) / 2;
     const V residual = larger(absolute(r1), absolute(r2), absolute(r3)), size2 = squareOf(l);
-    moves = moves & (residual >= 2e-16 * size2);
+    moves = allOf<M>(moves, residual >= 2e-16 * size2);
     if (!any(moves)) return;
     const V a = l.x - c.of12 * l.y, b = l.y - c.of12 * l.x, d = l.z - c.of13 * l.x, e = l.y - c.of23 * l.z;
     const V f = l.x - c.of13 * l.z, g = l.z - c.of23 * l.y, de = d * e, bg = b * g, inverse = -1 / (a * de + bg * f);
     const Vec3<V> step{inverse * (b * d * r3 - de * r1 - bg * r2), inverse * (a * (g * r2 - d * r3) - f * g * r1),
                        inverse * (f * (e * r1 - b * r3) - a * e * r2)};
     const V step2 = squareOf(step);
-    moves = moves & (step2 < 1e-2 * size2) & ((step2 <= 1e-8 * size2) | (residual >= 1e-12 * size2));
+    moves = allOf<M>(moves, step2 < 1e-2 * size2, anyOf<M>(step2 <= 1e-8 * size2, residual >= 1e-12 * size2));
     l = chosen<V>(moves, l - step, l);
-    moves = moves & (step2 >= 1e-18 * size2);
+    moves = allOf<M>(moves, step2 >= 1e-18 * size2);
     left = leftSides(c, l);
   }
 }

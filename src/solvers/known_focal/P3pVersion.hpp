@@ -24,9 +24,9 @@ HYBRIDGV_INLINE Mask<V> solutionFrom(const Vec3<V>& depths, Mask<V> asked, const
   solution.depths = depths;
   solveExactly(equations, solution.depths);
   const V l[3] = {solution.depths.x, solution.depths.y, solution.depths.z};
-  asked = asked & (l[0] > 0) & (l[1] > 0) & (l[2] > 0);
+  asked = allOf<Mask<V>>(asked, allOf<Mask<V>>(l[0] > 0, l[1] > 0, l[2] > 0));
   if (!any(asked)) return asked;
-  return asked & pose.set(asked, l, solution.rotation, solution.position);
+  return allOf(asked, pose.set(asked, l, solution.rotation, solution.position));
 }
 
 template <class V>
@@ -86,8 +86,7 @@ static void solveMany(const P3pSamples<kP3pSamples>& samples, P3pSolutions<kP3pS
       if (any(depths.exists(n))) {
         isFound[n] = solutionFrom(depths[n], depths.exists(n), equations, pose, found[n]);
         for (int i = 0; i < n; ++i)
-          if (any(isFound[i]))
-            isFound[n] = isFound[n] & negated<DoubleMask>(isFound[i] & isSame(found[i].depths, found[n].depths));
+          if (any(isFound[i])) isFound[n] &= negated<DoubleMask>(isFound[i] & isSame(found[i].depths, found[n].depths));
       }
       if (any(isFound[n])) storePose(found[n].rotation, found[n].position, n, at, solutions);
       storeMask(isFound[n], &solutions.found[n][at]);

@@ -108,7 +108,7 @@ class TrianglePose {
     const Vec3<V> first = depths[0] * bearings_[0];
     const M isSet = setRotation(asked, depths[1] * bearings_[1] - first, depths[2] * bearings_[2] - first, rotation);
     position = first_ - unit_ * (first.x * rotation.x + first.y * rotation.y + first.z * rotation.z);
-    return isSet & isMet(0, rotation, first) & isMet(1, rotation, first);
+    return allOf(isSet, isMet(0, rotation, first), isMet(1, rotation, first));
   }
 
  private:
@@ -134,7 +134,7 @@ class TrianglePose {
 
   void setSides(Vec3<V> a, Vec3<V> b) {
     const V extent = math::larger(largestOf(a), largestOf(b));
-    const M isModerate = (extent > 1e-100) & (extent < 1e100);  // its square is a double
+    const M isModerate = allOf<M>(extent > 1e-100, extent < 1e100);  // its square is a double
     V scale = one<V>();
     if (any(negated<M>(isModerate))) {
       scale = select<V>(isModerate, scale, extent);
@@ -144,7 +144,7 @@ class TrianglePose {
     const V aa = squareOf(a), bb = squareOf(b), cc = squareOf(b - a), sum = aa + bb + cc, root = squareRoot(sum);
     const V inverse = 1 / sum, inverseRoot = inverse * root;
     unit_ = scale * root;
-    isTriangle_ = (extent > 0) & (unit_ < kHuge);
+    isTriangle_ = allOf<M>(extent > 0, unit_ < kHuge);
     sides_[0] = inverseRoot * a;
     sides_[1] = inverseRoot * b;
     squaredSides_[0] = aa * inverse;
@@ -156,15 +156,15 @@ class TrianglePose {
   void setDuals() {
     const Vec3<V>&a = sides_[0], &b = sides_[1], n = cross(a, b);
     const V aa = squaredSides_[0], bb = squaredSides_[1], ab = dot(a, b), nn = squareOf(n), inverse = 1 / nn;
-    isThin_ = negated<M>((aa * bb > kShort) & (nn > kThin * kThin * (aa * bb)));
+    isThin_ = negated<M>(allOf<M>(aa * bb > kShort, nn > kThin * kThin * (aa * bb)));
     duals_ = {(inverse * bb) * a - (inverse * ab) * b, (inverse * aa) * b - (inverse * ab) * a, inverse * n};
-    if (any(isThin_)) isTriangle_ = isTriangle_ & (negated<M>(isThin_) | frameOf(a, b).exists);
+    if (any(isThin_)) isTriangle_ = allOf(isTriangle_, anyOf(negated<M>(isThin_), frameOf(a, b).exists));
   }
 
   // Shorter or longer, where the square of the length would be beyond the doubles.
   static Vec3<V> moderate(const Vec3<V>& v) {
     const V square = squareOf(v);
-    const M isModerate = (square > 1e-200) & (square < 1e200);
+    const M isModerate = allOf<M>(square > 1e-200, square < 1e200);
     return any(negated<M>(isModerate)) ? divided(v, select<V>(isModerate, one<V>(), largestOf(v))) : v;
   }
 
@@ -181,12 +181,12 @@ class TrianglePose {
   // its own. Where that is not one to rounding, of frames that are orthonormal in any case.
   M setRotation(M asked, const Vec3<V>& a, const Vec3<V>& b, Columns<V>& rotation) const {
     const Columns<V> ofDuals = timesTransposed(duals_, {a, b, cross(a, b)});
-    const M isSet = orthonormalize(ofDuals, rotation) & negated<M>(isThin_);
-    const M isLeft = asked & negated<M>(isSet);
+    const M isSet = allOf(orthonormalize(ofDuals, rotation), negated<M>(isThin_));
+    const M isLeft = allOf(asked, negated<M>(isSet));
     if (!any(isLeft)) return isSet;
     const Frame<V> own = frameOf(sides_[0], sides_[1]), seen = frameOf(a, b);
     rotation = chosen<V>(isSet, rotation, timesTransposed(own.axes, seen.axes));
-    return isSet | (own.exists & seen.exists);
+    return anyOf(isSet, allOf(own.exists, seen.exists));
   }
 
   // A matrix that is almost a rotation becomes one to rounding: 1 / |v| is 3/2 - |v|^2 / 2, to the square of the small difference.
@@ -196,14 +196,14 @@ class TrianglePose {
     rotation.x = (1.5 - 0.5 * xx) * R.x;
     rotation.y = (1.5 - 0.5 * yy) * R.y - xy * rotation.x;
     rotation.z = cross(rotation.x, rotation.y);
-    return (absolute(xx - 1) < kSmall) & (absolute(yy - 1) < kSmall) & (absolute(xy) < kSmall);
+    return allOf<M>(absolute(xx - 1) < kSmall, absolute(yy - 1) < kSmall, absolute(xy) < kSmall);
   }
 
   M isMet(int side, const Columns<V>& rotation, const Vec3<V>& first) const {
     const Vec3<V>& s = sides_[side];
     const V x = dot(rotation.x, s) + first.x, y = dot(rotation.y, s) + first.y, z = dot(rotation.z, s) + first.z;
     const V allowed = kImageTolerance * (imageScale_ * z);
-    return (absolute(x - u_[side + 1] * z) <= allowed) & (absolute(y - v_[side + 1] * z) <= allowed);
+    return allOf<M>(absolute(x - u_[side + 1] * z) <= allowed, absolute(y - v_[side + 1] * z) <= allowed);
   }
 
   static constexpr double kHuge = 1.7e308;
