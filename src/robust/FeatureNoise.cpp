@@ -227,7 +227,7 @@ double varianceOfFeatures(const LeastSquaresProblem& problem, const std::vector<
   if (problem.kinds.points) precision = std::max(precision, problem.pointLoss.precision);
   PairSums pairs;
   forEqual(sharers, featureOf<Sharer>, [&](auto first, auto end) { addPairs(first, end, pairs); });
-  const double ratio = (kEnough + pairs.products / precision) / (kEnough + pairs.coefficients / (precision * precision));
+  const double ratio = (kEnough + pairs.products / precision) / (kEnough + pairs.coefficients / precision / precision);
   return std::clamp(ratio, 0., kMost) / precision;
 }
 
@@ -268,8 +268,11 @@ std::optional<SharedInformation> sharedInformation(const LeastSquaresProblem& pr
   const FullParameterMatrix ofFeatures = variance * sharedSquares(sharers, featureOf<Sharer>, ofFeature);
   const FullParameterMatrix ofGroups = variance * sharedSquares(sharers, groupOf<Sharer>, ofFeature);
   const FullParameterMatrix ofItems = sharedSquares(sharers, itemOf<Sharer>, own);
-  return SharedInformation{estimated(ofFeatures + ofItems, problem.estimated),
+  SharedInformation result{estimated(ofFeatures + ofItems, problem.estimated),
                            estimated(ofFeatures - ofGroups, problem.estimated)};
+  // Where squares of derivatives are beyond the doubles, nothing can be said.
+  if (!result.all.allFinite() || !result.betweenGroups.allFinite()) return std::nullopt;
+  return result;
 }
 
 }  // namespace robust

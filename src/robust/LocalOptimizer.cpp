@@ -423,6 +423,7 @@ void LocalOptimizer::correctNoise(const ParameterMatrix& information, SharedInfo
   const double points = static_cast<double>(countBelow(errors.points, result.noise.points.boundary));
   const double left = rays + 2 * points - estimated_.parameters();
   const double excess = std::max(left, 1.) / std::max(left - (covariance * shared.all).trace(), 1.);
+  if (!std::isfinite(excess)) return;
   result.noise.rays.deviation *= std::sqrt(excess);
   result.noise.points.deviation *= std::sqrt(excess);
   shared.all = excess * shared.all + (excess - 1) * information;

@@ -36,7 +36,8 @@ int fittedRays(int parameters, int fittedPoints) { return std::max(parameters - 
 // it is made up, are computed once: for each number of fitted points, and of the rays that are fitted besides.
 class LevelTails {
  public:
-  static LevelTails ofRays(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares, int parameters) {
+  static LevelTails ofRays(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares,
+                           int parameters) {
     return {squaredErrors, threshold, shares, parameters, [=](int fittedPoints) { return fittedRays(parameters, fittedPoints); }};
   }
   static LevelTails ofPoints(const std::vector<double>& squaredErrors, double threshold, const LevelShares& shares,

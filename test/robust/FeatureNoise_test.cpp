@@ -111,6 +111,17 @@ TEST(FeatureNoise, IndependenceWouldNotExplainTheGradient) {
   EXPECT_GT(varianceOverPrediction(9413, {25, 5, true}, false).maxCoeff(), 2.5);
 }
 
+// The square of such a precision is 0.
+TEST(FeatureNoise, IsFiniteForAnyNoise) {
+  test::Random random(test::testSeed(), 9415);
+  const Data data(test::makeFeatureScene(random, 20, 3, true));
+  for (const double noise : {1e-10, 1e90, 1e137}) {
+    const std::optional<SharedInformation> shared = data.shared(data.problem(noise, noise), data.truth);
+    ASSERT_TRUE(shared) << noise;
+    EXPECT_TRUE(shared->all.allFinite() && shared->betweenGroups.allFinite()) << noise;
+  }
+}
+
 TEST(FeatureNoise, OutliersShareNothing) {
   test::Random random(test::testSeed(), 9414);
   test::HybridScene scene = test::makeFeatureScene(random, 30, 2, true);
