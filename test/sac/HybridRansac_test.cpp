@@ -364,6 +364,27 @@ TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
   EXPECT_NE(hybridRansac(adapter, options).iterationsPerSolver, one.iterationsPerSolver);
 }
 
+// 60 right rays tell their noise. A bound that is twice as wide must not make them count less because the points are noisier: the
+// results differ by a small part of their deviation.
+TEST(HybridRansac, AWiderBoundDoesNotChangeWhatRaysCount) {
+  std::vector<double> differences;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    test::Random random(test::testSeed() + 9600, i);
+    test::SceneOptions scene = noisy(200, 200, 0.7);
+    scene.imageNoise = 2;
+    scene.pointNoise = 0.2;  // some 12 px
+    const NoncentralHybridAdapter adapter = test::makeHybridScene(random, scene).adapter();
+    HybridRansacOptions options;
+    options.seed = i;
+    const HybridRansacResult wide = hybridRansac(adapter, options);
+    options.maxEpipolarErrorPx = 6;
+    const HybridRansacResult narrow = hybridRansac(adapter, options);
+    ASSERT_TRUE(wide.success && narrow.success) << i;
+    differences.push_back(std::abs(wide.pose.focalLength - narrow.pose.focalLength) / narrow.focalLengthStandardDeviation);
+  }
+  EXPECT_LT(test::median(differences), 0.1);
+}
+
 TEST(HybridRansac, OnlyTheGivenSolversAreDrawn) {
   test::Random random(test::testSeed(), 89);
   const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));

@@ -31,7 +31,7 @@ void setSample(const PointMatch* points, int at, P3pSamples<N>& samples) {
 template <int N>
 int solutionsOf(const P3pSolutions<N>& from, int at, FocalPose* solutions) {
   int count = 0;
-  for (int n = 0; n < 4; ++n) {
+  for (int n = 0; n < kP3pSolutions; ++n) {
     if (!from.found[n][at]) continue;
     FocalPose& pose = solutions[count++];
     for (int row = 0; row < 3; ++row) {
@@ -55,13 +55,12 @@ int p3p(const RayMatch*, const PointMatch* points, FocalPose* solutions) {
 }
 
 void p3pMany(const PointMatch* points, int count, FocalPose* solutions, int* found) {
-  constexpr int kMostSolutions = 4;
   P3pSamples<kP3pSamples> samples;
   P3pSolutions<kP3pSamples> all;
   // The places that are left over are filled with the first one: all are solved.
   for (int i = 0; i < kP3pSamples; ++i) setSample(points + (i < count ? 3 * i : 0), i, samples);
   p3pKernel().solveMany(samples, all);
-  for (int i = 0; i < count; ++i) found[i] = solutionsOf(all, i, solutions + kMostSolutions * i);
+  for (int i = 0; i < count; ++i) found[i] = solutionsOf(all, i, solutions + kP3pSolutions * i);
 }
 
 }  // namespace known_focal

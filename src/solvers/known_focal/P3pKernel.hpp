@@ -7,6 +7,8 @@ namespace hybridgv {
 namespace solvers {
 namespace known_focal {
 
+constexpr int kP3pSolutions = 4;  // at most
+
 // N samples: every row holds a number of each.
 template <int N>
 struct P3pSamples {
@@ -17,9 +19,9 @@ struct P3pSamples {
 // Up to four solutions of each, anywhere among the four.
 template <int N>
 struct P3pSolutions {
-  double column[4][3][3][N];  // of the rotation
-  double position[4][3][N];
-  bool found[4][N];
+  double column[kP3pSolutions][3][3][N];  // of the rotation
+  double position[kP3pSolutions][3][N];
+  bool found[kP3pSolutions][N];
 };
 
 // So many at once: as many as the widest vector has lanes.

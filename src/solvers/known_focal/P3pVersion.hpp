@@ -9,8 +9,6 @@ namespace solvers {
 namespace known_focal {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-constexpr int kMostSolutions = 4;
-
 template <class V>
 struct Solution {
   Vec3<V> depths, position;
@@ -80,9 +78,9 @@ static void solveMany(const P3pSamples<kP3pSamples>& samples, P3pSolutions<kP3pS
     const TrianglePose<Doubles> pose = readTriangle<Doubles>(samples, at);
     const P3pEquations<Doubles> equations(pose);
     const P3pDepths<Doubles> depths(pose, equations);
-    Solution<Doubles> found[kMostSolutions];
-    DoubleMask isFound[kMostSolutions] = {};
-    for (int n = 0; n < kMostSolutions; ++n) {
+    Solution<Doubles> found[kP3pSolutions];
+    DoubleMask isFound[kP3pSolutions] = {};
+    for (int n = 0; n < kP3pSolutions; ++n) {
       if (any(depths.exists(n))) {
         isFound[n] = solutionFrom(depths[n], depths.exists(n), equations, pose, found[n]);
         for (int i = 0; i < n; ++i)
@@ -103,9 +101,9 @@ class OneSample {
   // In two lanes, as long as there are two.
   void solve() {
     const P3pDepths<double> all(pose_, equations_);
-    Vec3<double> depths[kMostSolutions];
+    Vec3<double> depths[kP3pSolutions];
     int count = 0;
-    for (int n = 0; n < kMostSolutions; ++n)
+    for (int n = 0; n < kP3pSolutions; ++n)
       if (all.exists(n)) depths[count++] = all[n];
     int n = 0;
     if (count > 1) {
@@ -117,7 +115,7 @@ class OneSample {
       }
     }
     if (n < count) addSolutions<double>(depths[n], equations_, pose_, 1);
-    for (int k = 0; k < kMostSolutions; ++k) solutions_.found[k][0] = k < count_;
+    for (int k = 0; k < kP3pSolutions; ++k) solutions_.found[k][0] = k < count_;
   }
 
  private:
@@ -141,7 +139,7 @@ class OneSample {
   const TrianglePose<double> pose_;
   const P3pEquations<double> equations_;
   P3pSolutions<1>& solutions_;
-  Vec3<double> depths_[kMostSolutions];
+  Vec3<double> depths_[kP3pSolutions];
   int count_ = 0;
 };
 
