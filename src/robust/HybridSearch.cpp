@@ -176,7 +176,7 @@ bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
 // one's, but for a few, leads to the same optimum.
 bool HybridSearch::leadsToBest(const QueryPose& pose) const {
   if (!bestIsSignificant_ || !options_.localOptimization || estimated_.focalLength || estimated_.radial) return false;
-  constexpr double kNew = 0.05;
+  constexpr double kNew = 0.1;
   const Overlap inliers = overlap(scorer_.inliers(best_.pose), scorer_.inliers(pose));
   return inliers.onlySecond < kNew * inliers.both;
 }

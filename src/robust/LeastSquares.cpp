@@ -166,7 +166,8 @@ double DistortionPrior::weight(double distortion) const {
 
 LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss,
                                 Intrinsics estimated) {
-  const CameraModel model = estimated.radial ? CameraModel::Radial : CameraModel::Pinhole;
+  const CameraModel pinhole = estimated.focalLength ? CameraModel::Pinhole : CameraModel::CalibratedPinhole;
+  const CameraModel model = estimated.radial ? CameraModel::Radial : pinhole;
   return {&kernels(model), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds, estimated, {}};
 }
 

@@ -29,10 +29,9 @@ std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const Query
   return std::vector<double>(problem.rays.size, 0);
 }
 
-std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const QueryPose& pose) {
-  std::vector<double> result = rayLeverages(problem, pose);
-  for (double& value : result) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
-  return result;
+std::vector<double> narrowingByLeverage(std::vector<double> leverages) {
+  for (double& value : leverages) value = 1 / (1 - std::clamp(value, 0., kMaxLeverage));
+  return leverages;
 }
 
 }  // namespace robust

@@ -17,12 +17,12 @@ std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const Query
 std::vector<double> predictedVariances(const LeastSquaresProblem& problem, const QueryPose& pose,
                                        const ParameterMatrix& covariance);
 
-// RayArrays::narrowing with which the loss of a ray is a function of its studentized error e / sqrt(1 - h): an inlier's error has
-// the variance 1 - h times that of the noise.
+// RayArrays::narrowing for rays of these leverages, with which the loss of a ray is a function of its studentized error
+// e / sqrt(1 - h): an inlier's error has the variance 1 - h times that of the noise.
 //
 // A ray whose viewing rays meet close to the cameras moves fast with the pose: it has a long lever. A wrong one of that kind soon
 // agrees by chance with a pose near the right one, and then holds it there, with an error that looks small.
-std::vector<double> narrowingByLeverage(const LeastSquaresProblem& problem, const QueryPose& pose);
+std::vector<double> narrowingByLeverage(std::vector<double> leverages);
 
 }  // namespace robust
 }  // namespace hybridgv

@@ -40,18 +40,19 @@ correspondences::PaddedValues RayTreatment::narrowing() const {
   return isNeeded_ ? correspondences::PaddedValues(narrowing_, 1) : correspondences::PaddedValues();
 }
 
-std::vector<std::size_t> leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment) {
-  std::vector<std::size_t> result;
+Levers leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment) {
+  Levers result;
   LeastSquaresProblem without = problem;
   for (std::vector<std::size_t> levers;; levers.clear()) {
     const correspondences::PaddedValues narrowing = treatment.narrowing();
     without.rays.narrowing = narrowing.pointer();
-    const std::vector<double> leverages = rayLeverages(without, pose);
+    std::vector<double> leverages = rayLeverages(without, pose);
     for (std::size_t i = 0; i < leverages.size(); ++i)
       if (leverages[i] > kLever) levers.push_back(i);
+    if (result.rays.empty()) result.leverages = std::move(leverages);
     if (levers.empty()) return result;
     treatment.refuse(levers);
-    result.insert(result.end(), levers.begin(), levers.end());
+    result.rays.insert(result.rays.end(), levers.begin(), levers.end());
   }
 }
 

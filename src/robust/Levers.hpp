@@ -29,9 +29,14 @@ class RayTreatment {
   bool isNeeded_ = false;
 };
 
+struct Levers {
+  std::vector<std::size_t> rays;
+  std::vector<double> leverages;  // of all rays, while none of them is left out
+};
+
 // The rays of which the leverage (Leverage.hpp) exceeds one half. Levers that lie near to each other hide each other, so those that
 // stand out when the first ones are left out are among them.
-std::vector<std::size_t> leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment);
+Levers leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment);
 
 }  // namespace robust
 }  // namespace hybridgv

@@ -157,9 +157,12 @@ QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kin
     treatment.leaveOut(errors.rays);
     const Noise at = noise(errors, kBenefitOfDoubt);
     const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
-    pose = refuseLevers(robust, at, pose, steps, treatment);
-    const PaddedValues before = treatment.narrowing();
-    treatment.setNarrowing(narrowingByLeverage(narrowed(robust, before), pose));
+    Levers levers = leversOf(robust, pose, treatment);
+    if (refuse(levers.rays, robust, at, steps, pose, treatment)) {
+      const PaddedValues before = treatment.narrowing();
+      levers.leverages = rayLeverages(narrowed(robust, before), pose);
+    }
+    treatment.setNarrowing(narrowingByLeverage(std::move(levers.leverages)));
     const PaddedValues narrowing = treatment.narrowing();
     pose = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   }
@@ -169,35 +172,35 @@ QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kin
 // A lever must be predicted by the other correspondences. By the pose without it, its error has a variance v, in units of the noise's;
 // the odds that it is an inlier are then those of an error 1 / sqrt(v) as large, in a range that is sqrt(v) times as wide. A ray that
 // is predicted to +- 30 standard deviations agrees by chance 30 times more easily than one predicted to +- 1.
-QueryPose LocalOptimizer::refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start,
-                                       const Steps& steps, RayTreatment& treatment) const {
-  const std::vector<std::size_t> levers = leversOf(robust, start, treatment);
-  if (levers.empty()) return start;
+bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const LeastSquaresProblem& robust, const Noise& noise,
+                            const Steps& steps, QueryPose& pose, RayTreatment& treatment) const {
+  if (levers.empty()) return false;
   RayTreatment without = treatment;
   without.refuse(levers);
   const PaddedValues narrowing = without.narrowing();
-  QueryPose pose = minimize(narrowed(robust, narrowing), start, limits(steps)).pose;
+  const QueryPose others = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   ParameterMatrix covariance;
-  if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds), narrowing), pose), covariance)) return start;
+  if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds), narrowing), others), covariance)) return false;
 
   LeastSquaresProblem inUnitsOfNoise = robust;
   inUnitsOfNoise.rayLoss = {Loss::Quadratic, 1, 1 / (noise.rays.deviation * noise.rays.deviation)};
-  const std::vector<double> predicted = predictedVariances(inUnitsOfNoise, pose, covariance);
-  const std::vector<double> errors = scorer_.squaredRayErrors(pose);
+  const std::vector<double> predicted = predictedVariances(inUnitsOfNoise, others, covariance);
+  const std::vector<double> errors = scorer_.squaredRayErrors(others);
   std::vector<std::size_t> refused;
   for (const std::size_t i : levers) {
     const double v = 1 + predicted[i], x = errors[i] / (v * noise.rays.scale * noise.rays.scale);
     if (!(noise.rays.odds / (std::sqrt(v) * std::pow(1 + x, 8)) > 1)) refused.push_back(i);
   }
-  if (refused.empty()) return start;
+  if (refused.empty()) return false;
   treatment.refuse(refused);
-  return pose;
+  pose = others;
+  return true;
 }
 
 // Without the levers. If they are right, the pose changes by about as much as the others leave open; if they hold it at a wrong place,
 // by much more than the covariance says. So the change counts as one more error of the pose.
 void LocalOptimizer::leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const {
-  const std::vector<std::size_t> levers = leversOf(inliers, result.pose, treatment);
+  const std::vector<std::size_t> levers = leversOf(inliers, result.pose, treatment).rays;
   treatment.refuse(levers);
   const PaddedValues narrowing = treatment.narrowing();
   const LeastSquaresProblem others = narrowed(inliers, narrowing);

@@ -94,9 +94,9 @@ class LocalOptimizer {
   // The same with narrowed losses of the rays, and without those that are refused; only the last round to full precision.
   QueryPose withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& last,
                           RayTreatment& treatment) const;
-  // Refuses levers that the other correspondences do not predict; the pose without them.
-  QueryPose refuseLevers(const LeastSquaresProblem& robust, const Noise& noise, const QueryPose& start, const Steps& steps,
-                         RayTreatment& treatment) const;
+  // Refuses levers that the other correspondences do not predict; the pose becomes the one without levers. Whether there are any.
+  bool refuse(const std::vector<std::size_t>& levers, const LeastSquaresProblem& robust, const Noise& noise, const Steps& steps,
+              QueryPose& pose, RayTreatment& treatment) const;
   void leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const;
   // -2 log of the likelihood of what is estimated of the camera, before anything is seen.
   double priorCost(const QueryPose& pose) const;

@@ -114,23 +114,46 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
     return pairs.shares(plain, scorer_.bounds().rays, scorer_.bounds().points);
   };
   Shares shares = chance_.levelShares();
-  if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
+  const Counted clearest = countedAtClearestLevels(errors, shares);
+  const auto areLessLikelyThan = [&](double logFalseAlarmsOfShares) {
+    const double logBound = logFalseAlarmsOfShares + logOdds - logSamples_ - kLogChoices;
+    return isLessLikely(clearest, shares, logBound) || isLessLikelyAtAnyLevels(errors, shares, logBound);
+  };
+  if (!areLessLikelyThan(logFalseAlarms)) return false;
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_);
   shares = largest(shares, sharesOf(*randomPairs_));
-  if (!isLessLikelyThan(logFalseAlarms + logOdds, errors, shares)) return false;
+  if (!areLessLikelyThan(logFalseAlarms)) return false;
   if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_);
   shares = largest(shares, sharesOf(*neighbours_));
-  return isLessLikelyThan(kLogFalseAlarmsOfNeighbours + logOdds, errors, shares);
+  return areLessLikelyThan(kLogFalseAlarmsOfNeighbours);
 }
 
-bool Significance::isLessLikelyThan(double logFalseAlarms, const SquaredErrors& errors, const Shares& shares) const {
+// A pose that is right is so at many choices of levels, as a rule also at this one.
+Significance::Counted Significance::countedAtClearestLevels(const SquaredErrors& errors, const Shares& shares) const {
+  const PerKind<double>& bounds = scorer_.bounds();
+  const LevelCounts rays = countLevels(errors.rays.data(), errors.rays.size(), bounds.rays * bounds.rays);
+  const LevelCounts points = countLevels(errors.points.data(), errors.points.size(), bounds.points * bounds.points);
+  const PerKind<int> levels{clearestLevel(rays, errors.rays.size(), shares.rays, 0),
+                            clearestLevel(points, errors.points.size(), shares.points, 0)};
+  const Support all{points[static_cast<std::size_t>(levels.points)], sampler_.numberPoints(),
+                    rays[static_cast<std::size_t>(levels.rays)], sampler_.numberRays()};
+  return {levels, all, evidence_.support(inliersAt(errors, levels))};
+}
+
+bool Significance::isLessLikely(const Counted& counted, const Shares& shares, double logBound) const {
+  const double rayShare = shares.rays[static_cast<std::size_t>(counted.levels.rays)];
+  const double pointShare = shares.points[static_cast<std::size_t>(counted.levels.points)];
+  return ChanceModel::logProbability(counted.all, rayShare, pointShare, parameters_) < logBound &&
+         ChanceModel::logProbability(counted.different, rayShare, pointShare, parameters_) < logBound;
+}
+
+bool Significance::isLessLikelyAtAnyLevels(const SquaredErrors& errors, const Shares& shares, double logBound) const {
   struct Choice {
     double logProbability;
     PerKind<int> levels;
   };
   const LevelTails rays = LevelTails::ofRays(errors.rays, scorer_.bounds().rays, shares.rays, parameters_);
   const LevelTails points = LevelTails::ofPoints(errors.points, scorer_.bounds().points, shares.points, parameters_);
-  const double logBound = logFalseAlarms - logSamples_ - kLogChoices;
   std::vector<Choice> choices;
   for (int a = 0; a < kLevels; ++a)
     for (int b = 0; b < kLevels; ++b) {

@@ -53,8 +53,16 @@ class Significance {
   // log10 of the expected number of wrong poses that look as good.
   double logAlarms(double logChance) const { return logChance + logSamples_; }
   bool isLessLikelyThan(double logFalseAlarms, const QueryPose& pose);
-  // For the shares of inliers that wrong poses have.
-  bool isLessLikelyThan(double logFalseAlarms, const PerKind<std::vector<double>>& squaredErrors, const Shares& shares) const;
+
+  // The inliers at one choice of levels.
+  struct Counted {
+    PerKind<int> levels;
+    Support all, different;
+  };
+  Counted countedAtClearestLevels(const PerKind<std::vector<double>>& squaredErrors, const Shares& shares) const;
+  // Whether the probability that a wrong pose looks as good is below the bound (log10), for the shares of inliers that wrong poses have.
+  bool isLessLikely(const Counted& counted, const Shares& shares, double logBound) const;
+  bool isLessLikelyAtAnyLevels(const PerKind<std::vector<double>>& squaredErrors, const Shares& shares, double logBound) const;
   InlierMasks inliersAt(const PerKind<std::vector<double>>& squaredErrors, const PerKind<int>& levels) const;
   bool hasFixedScale(const QueryPose& pose, const InlierCounts& inliers) const;
 

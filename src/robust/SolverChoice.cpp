@@ -103,9 +103,15 @@ void SolverChoice::learnFromFailures() {
 void SolverChoice::setWeights() {
   const bool isKnown = !allInlier_.empty() && *std::max_element(allInlier_.begin(), allInlier_.end()) > 0;
   if (isKnown)
-    setWeights(allInlier_, kHopeless);
+    setWeights(certainties(), kHopeless);
   else
     setWeights(std::vector<double>(strategies_.size(), 1), std::numeric_limits<double>::infinity());
+}
+
+std::vector<double> SolverChoice::certainties() const {
+  std::vector<double> result(allInlier_.size());
+  std::transform(allInlier_.begin(), allInlier_.end(), result.begin(), [](double p) { return -std::log1p(-std::min(p, kSurely)); });
+  return result;
 }
 
 void SolverChoice::setWeights(const std::vector<double>& probabilities, double hopeless) {

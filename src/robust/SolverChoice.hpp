@@ -17,7 +17,6 @@ struct Strategy {
   solvers::MinimalSolver solver;
   double prior;
 
-  // Six rays of one camera and one of another are drawn in two stages.
   // Six rays of one camera and a seventh (StagedSampling); not five and a sixth for a known focal length.
   bool isStaged() const { return solver.draw == RayDraw::AllButOne && solver.intrinsics.focalLength; }
   SampleSize size() const;
@@ -34,9 +33,10 @@ enum class FocalLengthKnowledge { None, Prior, Exact };
 std::vector<Strategy> makeStrategies(const std::vector<sac::SolverPrior>& solvers, const Sampler& sampler,
                                      FocalLengthKnowledge known = FocalLengthKnowledge::None);
 
-// A strategy s is drawn with probability proportional to prior x P_s / cost, P_s the probability that its sample has inliers
-// only. There is no factor (1 - P_s)^k_s for its k_s samples so far, as in Camposeco et al. (CVPR 2018): samples are independent,
-// a solver is as good after many as before, and with such a factor most of the time goes to slower solvers.
+// A strategy s is drawn with probability proportional to prior x -log(1 - P_s) / cost, P_s the probability that its sample has inliers
+// only: by so much a sample brings down the log of the probability to have missed one. There is no factor (1 - P_s)^k_s for its k_s
+// samples so far, as in Camposeco et al. (CVPR 2018): samples are independent, a solver is as good after many as before, and with such
+// a factor most of the time goes to slower solvers.
 class SolverChoice {
  public:
   explicit SolverChoice(std::vector<Strategy> strategies);
@@ -64,6 +64,7 @@ class SolverChoice {
   // The same where that is only believed.
   static constexpr double kHopelessIfBelieved = 10;
 
+  std::vector<double> certainties() const;  // -log(1 - P_s)
   void setWeights();
   void setWeights(const std::vector<double>& probabilities, double hopeless);
 

@@ -75,9 +75,9 @@ inline constexpr MinimalSolver kMinimalSolvers[] = {
     {Solver::H70f,  "h70f",           7, 0, RayDraw::AllButOne,  9, 4,   1,   0, false, kUnknownFocalLength, &h70f::solve},
     {Solver::H70f,  "h70f",           7, 0, RayDraw::Spread,   118, 850, 1,   0, true,  kUnknownFocalLength, &h70f::solve},
     {Solver::P3P,   "p3p",            0, 3, RayDraw::Uniform,    4, 0.15, 1,  6, false, kKnownFocalLength,   &known_focal::p3p, &known_focal::p3pMany},
-    {Solver::H22,   "h22",            2, 2, RayDraw::Uniform,   16, 2.0, 1,   4, false, kKnownFocalLength,   &known_focal::h22},
-    {Solver::H41,   "h41",            4, 1, RayDraw::OneCamera, 10, 4.0, 1,   2, false, kKnownFocalLength,   &known_focal::h41},
-    {Solver::H60,   "h60",            6, 0, RayDraw::AllButOne, 10, 4.0, 1,   0, false, kKnownFocalLength,   &known_focal::h60},
+    {Solver::H22,   "h22",            2, 2, RayDraw::Uniform,   16, 2.0, 0.5, 4, false, kKnownFocalLength,   &known_focal::h22},
+    {Solver::H41,   "h41",            4, 1, RayDraw::OneCamera, 10, 4.0, 0.2, 2, false, kKnownFocalLength,   &known_focal::h41},
+    {Solver::H60,   "h60",            6, 0, RayDraw::AllButOne, 10, 4.0, 0.2, 0, false, kKnownFocalLength,   &known_focal::h60},
     {std::nullopt,  "fivept",         5, 0, RayDraw::OneCamera, 10, 4.0, 0,   0, false, kKnownFocalLength,   &known_focal::fivept},
 };
 // clang-format on

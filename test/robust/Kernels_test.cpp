@@ -34,7 +34,8 @@ struct Model {
   std::vector<double> distortions;
 };
 const std::vector<Model>& models() {
-  static const std::vector<Model> result = {{CameraModel::Pinhole, {0}}, {CameraModel::Radial, {-7e-7, -1e-7, 0, 3e-7}}};
+  static const std::vector<Model> result = {
+      {CameraModel::Pinhole, {0}}, {CameraModel::CalibratedPinhole, {0}}, {CameraModel::Radial, {-7e-7, -1e-7, 0, 3e-7}}};
   return result;
 }
 QueryPose withDistortion(const FocalPose& pose, double distortion) {
@@ -168,7 +169,15 @@ TEST(Kernels, APoseThatIsNotANumberHasNoInliers) {
 constexpr Loss kLosses[] = {Loss::Quadratic, Loss::Truncated, Loss::Mixture};
 
 int parametersOf(CameraModel model) {
-  return model == CameraModel::Pinhole ? correspondences::kFocalPoseParameters : kMostParameters;
+  switch (model) {
+    case CameraModel::Pinhole:
+      return correspondences::kFocalPoseParameters;
+    case CameraModel::CalibratedPinhole:
+      return correspondences::kPoseParameters;
+    case CameraModel::Radial:
+      break;
+  }
+  return kMostParameters;
 }
 
 NormalEquations sums(const Kernels& tested, const Data& data, const QueryPose& normalized, const KindLoss& loss, bool points,
@@ -337,7 +346,7 @@ TEST(Kernels, RowsAddUpToTheNormalEquationsAtEveryLevel) {
           for (std::size_t i = 0; i < 61; ++i) {
             if (!(rays(i, 0) > 0)) continue;
             addRow(rays, i, 1, parametersOf(model.model), ofRays);
-            for (std::size_t k = 0; k < 7; ++k) {
+            for (std::size_t k = 0; k < kMostParameters; ++k) {
               shifts.alongU[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, 9);
               shifts.alongV[k] += rays(i, 0) * rays(i, 1 + k) * rays(i, 10);
             }
@@ -350,7 +359,7 @@ TEST(Kernels, RowsAddUpToTheNormalEquationsAtEveryLevel) {
           expectSameHessian(ofRays, sums(tested, data, pose, spec, false, true), parametersOf(model.model));
           expectSameHessian(ofPoints, sums(tested, data, pose, spec, true, false), parametersOf(model.model));
           tested.addRayShifts(data.arrays.rayArrays(), toPlain(pose), spec, expectedShifts);
-          for (std::size_t k = 0; k < 7; ++k) {
+          for (int k = 0; k < parametersOf(model.model); ++k) {
             const double scale = 1e-9 * std::sqrt(61 * ofRays.hessian[k][k]);
             EXPECT_NEAR(shifts.alongU[k], expectedShifts.alongU[k], scale);
             EXPECT_NEAR(shifts.alongV[k], expectedShifts.alongV[k], scale);

@@ -74,7 +74,7 @@ TEST(Leverage, IsZeroWhereTheDataDoNotFixThePose) {
   const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
   const LeastSquaresProblem problem = makeProblem(arrays, kUnitNoise, kUnitNoise);
   EXPECT_EQ(rayLeverages(problem, arrays.normalization().apply(scene.truth)), std::vector<double>(3, 0));
-  EXPECT_EQ(narrowingByLeverage(problem, arrays.normalization().apply(scene.truth)), std::vector<double>(3, 1));
+  EXPECT_EQ(narrowingByLeverage(rayLeverages(problem, arrays.normalization().apply(scene.truth))), std::vector<double>(3, 1));
 }
 
 TEST(Leverage, NarrowsTheLossOfNoRayWithoutEnd) {
@@ -82,7 +82,7 @@ TEST(Leverage, NarrowsTheLossOfNoRayWithoutEnd) {
   const test::HybridScene scene = makeScene(random, 7, 0);  // every ray fixes a direction: leverage 1
   const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
   const LeastSquaresProblem problem = makeProblem(arrays, kUnitNoise, kUnitNoise);
-  const std::vector<double> narrowing = narrowingByLeverage(problem, arrays.normalization().apply(scene.truth));
+  const std::vector<double> narrowing = narrowingByLeverage(rayLeverages(problem, arrays.normalization().apply(scene.truth)));
   ASSERT_EQ(narrowing.size(), 7u);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_TRUE(narrowing[i] >= 1 && narrowing[i] < 101) << narrowing[i];
 }

@@ -69,7 +69,7 @@ TEST(Levers, AreFoundOnceIfTheyHaveNoError) {
   const correspondences::CorrespondenceArrays arrays = readAll(scene.adapter());
   const QueryPose pose = arrays.normalization().apply(scene.truth);
   for (const Loss loss : kLosses)
-    EXPECT_EQ(leversOf(problemOf(arrays, loss), pose, RayTreatment(1)), std::vector<std::size_t>{0});
+    EXPECT_EQ(leversOf(problemOf(arrays, loss), pose, RayTreatment(1)).rays, std::vector<std::size_t>{0});
 }
 
 }  // namespace

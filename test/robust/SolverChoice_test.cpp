@@ -34,16 +34,25 @@ TEST(SolverChoice, BeforeAPoseIsKnownAllGetTheSameTimeTimesTheirPrior) {
   EXPECT_EQ(choice.missProbability(), 1);
 }
 
-TEST(SolverChoice, WeightIsPriorTimesProbabilityOverCostHoweverOftenItWasDrawn) {
+TEST(SolverChoice, WeightIsPriorTimesWhatASampleAddsToCertaintyOverCostHoweverOftenItWasDrawn) {
   SolverChoice choice({mock(1, 2), mock(2, 3), mock(1, 5)});
   const double prior[] = {1, 2, 1}, cost[] = {2, 3, 5};
-  const std::vector<double> P = {0.02, 0.02, 0.06};
+  const std::vector<double> P = {0.03, 0.02, 0.08};
   choice.setAllInlierProbabilities(P);
   choice.addDraws(0, 1000);
   double weight[3], sum = 0;
-  for (std::size_t s = 0; s < 3; ++s) sum += weight[s] = prior[s] * P[s] / cost[s];
+  for (std::size_t s = 0; s < 3; ++s) sum += weight[s] = prior[s] * -std::log(1 - P[s]) / cost[s];
   const std::vector<double> share = shares(choice);
   for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(share[s], weight[s] / sum, 1e-4);
+}
+
+// Three samples of a kind that always has inliers only say as much as hundreds of one that seldom has.
+TEST(SolverChoice, ASlowSolverIsDrawnWhereItsSamplesAreAlmostSure) {
+  SolverChoice choice({mock(1, 1), mock(1, 20)});
+  choice.setAllInlierProbabilities({0.1, 1 - 1e-6});
+  EXPECT_EQ(shares(choice)[0], 0);
+  choice.setAllInlierProbabilities({0.9, 1 - 1e-6});
+  EXPECT_EQ(shares(choice)[1], 0);
 }
 
 Strategy mockOfPoints(int points, double cost) {

@@ -52,15 +52,15 @@ using Row = Doubles[N];
 //   dC   = (q x R^T l) . rotation + s . dposition + f (r3.l) dlogf
 //   dG/2 = (r3.l) (l2, -l1, 0) . rotation + R^T (w x (t x m)) h . rotation
 //        + ((l1 r1 + l2 r2) x D + h w x m) . dposition + (h f r3 . (t x m) - hq m.n) dlogf
-// where h is the squared pixel of the map image and hq the part of it that is 1/f^2.
-HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose, Doubles* derivatives) {
+// where h is the squared pixel of the map image and hq the part of it that is 1/f^2. Rows without log f end before it.
+template <int N>
+HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const Pose& pose, Row<N>& derivatives) {
   const Doubles l3 = dot(pose.r3, ray.l), h = ray.squaredPixel;
   const Vec3<Doubles> m = ray.n - ray.alongNormal * ray.imageNormal;
   const Vec3<Doubles> tm = cross(ray.t, m);
   const Vec3<Doubles> constraintByRotation = cross(ray.image, Vec3<Doubles>{ray.l1, ray.l2, l3});
   const Vec3<Doubles> mapByRotation = h * pose.toQuery(cross(ray.w, tm));
   const Vec3<Doubles> varianceByPosition = cross(ray.l1 * pose.r1 + ray.l2 * pose.r2, ray.direction) + h * cross(ray.w, m);
-  const Doubles varianceByFocal = h * ray.image.z * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
   const Doubles ratio = ray.constraint / variance;
   derivatives[0] = constraintByRotation.x - ratio * (l3 * ray.l2 + mapByRotation.x);
   derivatives[1] = constraintByRotation.y - ratio * (mapByRotation.y - l3 * ray.l1);
@@ -68,7 +68,10 @@ HYBRIDGV_INLINE void differentiate(const Epipolar& ray, Doubles variance, const 
   derivatives[3] = ray.s.x - ratio * varianceByPosition.x;
   derivatives[4] = ray.s.y - ratio * varianceByPosition.y;
   derivatives[5] = ray.s.z - ratio * varianceByPosition.z;
-  derivatives[6] = ray.image.z * l3 - ratio * varianceByFocal;
+  if constexpr (N > correspondences::kPoseParameters) {
+    const Doubles varianceByFocal = h * ray.image.z * dot(pose.r3, tm) - ray.squaredPixelOfQuery * ray.varianceInMap;
+    derivatives[6] = ray.image.z * l3 - ratio * varianceByFocal;
+  }
 }
 
 // The same by the place in the query's image.

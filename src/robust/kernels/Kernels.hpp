@@ -44,7 +44,8 @@ struct KindLoss {
 };
 
 // The parameters by which the kernels derive are a small rotation in the query's frame (R -> R exp([.]x)), the position, log f,
-// and the distortion, which those for pinhole images do not have. Which of them are estimated, LeastSquares decides.
+// and the distortion, which those for pinhole images do not have; those for calibrated ones do not derive rays by log f. Which of them
+// are estimated, LeastSquares decides.
 using correspondences::kMostParameters;
 
 // For residuals e with derivatives J and weights W (precision times the derivative of rho), the sums J^T W e and J^T W J.
@@ -84,7 +85,7 @@ struct Kernels {
   void (*pointRows)(const PointArrays&, const PlainPose&, const KindLoss&, double* columns);
 };
 
-enum class CameraModel { Pinhole, Radial };
+enum class CameraModel { Pinhole, CalibratedPinhole, Radial };
 
 // `level` must be supported by the processor.
 const Kernels& kernels(math::SimdLevel level, CameraModel model = CameraModel::Pinhole);

@@ -28,8 +28,9 @@ constexpr Kernels makeKernels() {
           &pointRows};
 }
 
-extern const Kernels kPinholeKernels, kRadialKernels;
+extern const Kernels kPinholeKernels, kCalibratedPinholeKernels, kRadialKernels;
 const Kernels kPinholeKernels = makeKernels<Pinhole>();
+const Kernels kCalibratedPinholeKernels = makeKernels<CalibratedPinhole>();
 const Kernels kRadialKernels = makeKernels<Radial>();
 
 }  // namespace HYBRIDGV_INSTRUCTION_SET

@@ -19,6 +19,11 @@ struct Pinhole {
   static constexpr int kParameters = correspondences::kFocalPoseParameters;
 };
 
+// The same where the focal length is known: without the derivatives of rays by it.
+struct CalibratedPinhole : Pinhole {
+  static constexpr int kParameters = correspondences::kPoseParameters;
+};
+
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust
 }  // namespace hybridgv

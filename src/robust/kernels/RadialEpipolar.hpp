@@ -39,7 +39,8 @@ struct RadialEpipolar : Epipolar {
 //   dG/2 = (x x L) . rotation + (R x x D) . dposition + E l3 dlogf
 // and have none by c:
 //   dC = f r^2 l3 dc,   dG/2 = (2 f l3 (A u + B v) + h f r^2 r3 . (t x m)) dc
-HYBRIDGV_INLINE void differentiate(const RadialEpipolar& ray, Doubles variance, const RadialPose& pose, Doubles* derivatives) {
+HYBRIDGV_INLINE void differentiate(const RadialEpipolar& ray, Doubles variance, const RadialPose& pose,
+                                   Row<kMostParameters>& derivatives) {
   differentiate(static_cast<const Epipolar&>(ray), variance, pose, derivatives);
   const Doubles ratio = ray.constraint / variance, alongImage = ray.A * ray.image.x + ray.B * ray.image.y;
   const Vec3<Doubles> x{ray.k * ray.image.x * ray.l3, ray.k * ray.image.y * ray.l3, ray.k * alongImage};
