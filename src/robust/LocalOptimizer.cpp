@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "correspondences/PaddedValues.hpp"
-#include "robust/Leverage.hpp"
 #include "robust/medians.hpp"
 
 namespace hybridgv {
@@ -33,11 +32,6 @@ constexpr double kSureDeviation = 0.05;
 // The errors of truncated least squares count as if their deviation were the truncation, which is several times too much. The prior of
 // the distortion must count less in the same way.
 constexpr double kPriorOfTruncated = 0.05;
-// In the final optimization, the odds that a ray is an inlier count so many times. Those that follow from the data are 2 to 4 times too
-// small, because the share of wrong rays is a bound (ChanceModel). And real rays, which share the errors of their camera's pose, are
-// beyond three standard deviations 6 times in 100 on two of three models; without them the points' errors move the pose. Found on real
-// models; where errors are normal and there are as many points, it makes no difference.
-constexpr double kBenefitOfDoubt = 10;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
 constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
@@ -88,12 +82,6 @@ PerKind<double> fittedDeviations(const SquaredErrors& inliers, int parameters) {
 
 KindLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
 KindLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
-
-// The narrowing must outlive the problem.
-LeastSquaresProblem narrowed(LeastSquaresProblem problem, const PaddedValues& narrowing) {
-  problem.rays.narrowing = narrowing.pointer();
-  return problem;
-}
 
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
 // least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as somewhat
@@ -146,71 +134,6 @@ QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, 
     pose = minimize(problem(at.rays.loss(), at.points.loss(), kinds), pose, limits(steps)).pose;
   }
   return pose;
-}
-
-QueryPose LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& last,
-                                        RayTreatment& treatment) const {
-  QueryPose pose = start;
-  for (int round = 0; round < rounds; ++round) {
-    const Steps& steps = round + 1 < rounds ? kCoarse : last;
-    SquaredErrors errors = squaredErrors(pose, kinds);
-    treatment.leaveOut(errors.rays);
-    const Noise at = noise(errors, kBenefitOfDoubt);
-    const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
-    Levers levers = leversOf(robust, pose, treatment);
-    if (refuse(levers.rays, robust, at, steps, pose, treatment)) {
-      const PaddedValues before = treatment.narrowing();
-      levers.leverages = rayLeverages(narrowed(robust, before), pose);
-    }
-    treatment.setNarrowing(narrowingByLeverage(std::move(levers.leverages)));
-    const PaddedValues narrowing = treatment.narrowing();
-    pose = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
-  }
-  return pose;
-}
-
-// A lever must be predicted by the other correspondences. By the pose without it, its error has a variance v, in units of the noise's;
-// the odds that it is an inlier are then those of an error 1 / sqrt(v) as large, in a range that is sqrt(v) times as wide. A ray that
-// is predicted to +- 30 standard deviations agrees by chance 30 times more easily than one predicted to +- 1.
-bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const LeastSquaresProblem& robust, const Noise& noise,
-                            const Steps& steps, QueryPose& pose, RayTreatment& treatment) const {
-  if (levers.empty()) return false;
-  RayTreatment without = treatment;
-  without.refuse(levers);
-  const PaddedValues narrowing = without.narrowing();
-  const QueryPose others = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
-  ParameterMatrix covariance;
-  if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds), narrowing), others), covariance)) return false;
-
-  LeastSquaresProblem inUnitsOfNoise = robust;
-  inUnitsOfNoise.rayLoss = {Loss::Quadratic, 1, 1 / (noise.rays.deviation * noise.rays.deviation)};
-  const std::vector<double> predicted = predictedVariances(inUnitsOfNoise, others, covariance);
-  const std::vector<double> errors = scorer_.squaredRayErrors(others);
-  std::vector<std::size_t> refused;
-  for (const std::size_t i : levers) {
-    const double v = 1 + predicted[i], x = errors[i] / (v * noise.rays.scale * noise.rays.scale);
-    if (!(noise.rays.odds / (std::sqrt(v) * std::pow(1 + x, 8)) > 1)) refused.push_back(i);
-  }
-  if (refused.empty()) return false;
-  treatment.refuse(refused);
-  pose = others;
-  return true;
-}
-
-// Without the levers. If they are right, the pose changes by about as much as the others leave open; if they hold it at a wrong place,
-// by much more than the covariance says. So the change counts as one more error of the pose.
-void LocalOptimizer::leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const {
-  const std::vector<std::size_t> levers = leversOf(inliers, result.pose, treatment).rays;
-  treatment.refuse(levers);
-  const PaddedValues narrowing = treatment.narrowing();
-  const LeastSquaresProblem others = narrowed(inliers, narrowing);
-  ParameterMatrix covariance;
-  const bool isRegular = invertInformation(information(others, result.pose), covariance);
-  result.deviationWithoutLevers =
-      isRegular ? std::sqrt(varianceOfLogFocalLength(covariance, estimated_)) : std::numeric_limits<double>::infinity();
-  if (levers.empty() || !isRegular || !result.isRegular) return;
-  const ParameterVector change = changeOf(result.pose, minimize(others, result.pose, limits(kCoarse)).pose, estimated_);
-  result.covariance += change * change.transpose();
 }
 
 bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
@@ -339,13 +262,19 @@ Noise LocalOptimizer::finalNoise(const SquaredErrors& errors) const {
   return result;
 }
 
+LeastSquaresProblem LocalOptimizer::narrowed(LeastSquaresProblem problem, const PaddedValues& narrowing) {
+  problem.rays.narrowing = narrowing.pointer();
+  return problem;
+}
+
 LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Kinds& kinds) const {
   return problem(truncatedLoss(noise.rays.boundary, noise.rays.deviation),
                  truncatedLoss(noise.points.boundary, noise.points.deviation), kinds);
 }
 
-double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
-  const SquaredErrors errors = squaredErrors(pose, kBothKinds);
+double LocalOptimizer::logLikelihood(const QueryPose& pose) const { return logLikelihood(pose, squaredErrors(pose, kBothKinds)); }
+
+double LocalOptimizer::logLikelihood(const QueryPose& pose, const SquaredErrors& errors) const {
   const Noise at = noise(errors);
   return at.rays.logLikelihood(errors.rays) + at.points.logLikelihood(errors.points) - priorCost(pose) / 2;
 }
@@ -374,15 +303,6 @@ Optimum LocalOptimizer::keep(const QueryPose& pose) const {
 
 Optimum LocalOptimizer::polishNear(const QueryPose& start) const {
   return keep(likeliest(start, moreThanChance(start), 1, {4, 1e-8}));
-}
-
-Optimum LocalOptimizer::polish(const QueryPose& start) const {
-  const Kinds kinds = moreThanChance(start);
-  RayTreatment treatment(scorer_.arrays().rays().size());
-  // A focal length that is not free gives the levers less to move. With unknown distortion this is done twice, with and without it.
-  const int rounds = estimated_.focalLength && !lens_.isUnknown ? 3 : 2;
-  const QueryPose pose = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds, rounds, {20, 1e-8}, treatment);
-  return optimumAt(pose, kinds, treatment);
 }
 
 FinalPose LocalOptimizer::finish(const Optimum& optimum) const {

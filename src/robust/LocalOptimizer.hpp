@@ -74,8 +74,11 @@ class LocalOptimizer {
   // `benefitOfDoubt`: a factor for the odds that a ray is an inlier, if there are as many points.
   Noise noise(const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   Noise finalNoise(const SquaredErrors& errors) const;
+  double logLikelihood(const QueryPose& pose, const SquaredErrors& errors) const;
   // For these standard deviations of the inliers' errors [px].
   Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors, double benefitOfDoubt = 1) const;
+  // The narrowing must outlive the problem.
+  static LeastSquaresProblem narrowed(LeastSquaresProblem problem, const correspondences::PaddedValues& narrowing);
   LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
   // With the noise at this pose.
   Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const;
@@ -86,14 +89,14 @@ class LocalOptimizer {
     int iterations;
     double minDecrease;
   };
-  static constexpr Steps kCoarse{10, 1e-4};
+  static constexpr Steps kCoarse{10, 1e-4}, kPrecise{20, 1e-8};
   // Of errors that are truncated at these limits [px].
   QueryPose leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
                            const Steps& steps) const;
   QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
-  // The same with narrowed losses of the rays, and without those that are refused; only the last round to full precision.
-  QueryPose withoutLevers(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& last,
-                          RayTreatment& treatment) const;
+  Optimum withoutLevers(const QueryPose& start, const Kinds& kinds) const;
+  Optimum bestOfOtherStarts(const Optimum& first) const;
+  double logEvidenceOf(const Optimum& optimum) const;
   // Refuses levers that the other correspondences do not predict; the pose becomes the one without levers. Whether there are any.
   bool refuse(const std::vector<std::size_t>& levers, const LeastSquaresProblem& robust, const Noise& noise, const Steps& steps,
               QueryPose& pose, RayTreatment& treatment) const;

@@ -1,0 +1,67 @@
+#include "robust/DepthPrior.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "robust/medians.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+using correspondences::CorrespondenceArrays;
+
+// A narrower distribution would refuse honest foreground.
+constexpr double kLeastWidth = 0.5;
+constexpr double kDeviationsPerMedian = 1.4826;  // of normal values
+// The depths of rays change with the pose that they are to test; points are better where there are some.
+constexpr std::size_t kEnoughPoints = 5;
+
+bool isInlier(double squaredError, const ErrorMixture& noise) { return squaredError < noise.boundary * noise.boundary; }
+
+// Those of inliers in front.
+std::vector<double> logDepthsOfPoints(const CorrespondenceArrays& arrays, const QueryPose& pose,
+                                      const std::vector<double>& squaredErrors, const ErrorMixture& noise) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < squaredErrors.size(); ++i)
+    if (isInlier(squaredErrors[i], noise))
+      result.push_back(std::log(pose.rotation.col(2).dot(arrays.points()[i].point - pose.position)));
+  return result;
+}
+
+}  // namespace
+
+DepthPrior::DepthPrior(const CorrespondenceArrays& arrays, const QueryPose& pose,
+                       const PerKind<std::vector<double>>& squaredErrors, const PerKind<ErrorMixture>& noise)
+    : arrays_(arrays), pose_(pose), deviation_(noise.rays.deviation) {
+  std::vector<double> ofPoints = logDepthsOfPoints(arrays, pose, squaredErrors.points, noise.points), all = ofPoints;
+  for (std::size_t i = 0; i < squaredErrors.rays.size(); ++i)
+    if (isInlier(squaredErrors.rays[i], noise.rays)) all.push_back(logDepth(i));
+  if (all.empty()) return;
+  logMode_ = ofPoints.size() >= kEnoughPoints ? median(ofPoints) : median(all);
+  const double n = static_cast<double>(all.size());
+  for (double& value : all) value = std::abs(value - logMode_);
+  width_ = std::max(kLeastWidth, kDeviationsPerMedian * median(all)) * std::sqrt(1 + 5 / n);
+}
+
+double DepthPrior::plausibility(std::size_t ray) const {
+  if (!(width_ > 0)) return 1;
+  const double difference = logDepth(ray) - logMode_, t = difference / width_, q = 1 + t * t / 3;
+  return std::min(1., std::exp(difference)) / (q * q);
+}
+
+// A point is at its depth only to the accuracy of its disparity: no ray is farther than where that is two standard deviations.
+double DepthPrior::logDepth(std::size_t i) const {
+  constexpr double kDeviations = 2;
+  const correspondences::RayMatch& ray = arrays_.rays()[i];
+  const double f = pose_.focalLength * (1 + pose_.distortion * (ray.u * ray.u + ray.v * ray.v));
+  const Eigen::Vector3d w = pose_.rotation * Eigen::Vector3d(ray.u, ray.v, f), t = ray.centre - pose_.position;
+  const Eigen::Vector3d s = w.cross(ray.direction), l = t.cross(ray.direction);
+  const double depth = f * l.dot(s) / s.squaredNorm(), most = t.cross(w).norm() / (kDeviations * deviation_);
+  return std::log(std::max(depth > 0 && depth < most ? depth : most, std::numeric_limits<double>::min()));
+}
+
+}  // namespace robust
+}  // namespace hybridgv
