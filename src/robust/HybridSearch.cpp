@@ -301,10 +301,14 @@ void HybridSearch::setThresholds(const Model& model) {
   scorer_.setThresholds({scale.rays * bounds.rays, scale.points * bounds.points});
 }
 
+Thresholds HybridSearch::thresholdsAt(const QueryPose& pose) const {
+  const SquaredErrors errors{scorer_.squaredRayErrors(pose), scorer_.squaredPointErrors(pose)};
+  return workingThresholds(errors, scorer_.bounds(), chance_);
+}
+
 // The model is evaluated, and the search goes on, with the thresholds that its errors ask for.
 void HybridSearch::findThresholds(Model& model) {
-  const SquaredErrors errors{scorer_.squaredRayErrors(model.pose), scorer_.squaredPointErrors(model.pose)};
-  scorer_.setThresholds(workingThresholds(errors, scorer_.bounds(), chance_));
+  scorer_.setThresholds(thresholdsAt(model.pose));
   model.evaluation = scorer_.evaluate(model.pose);
   model.logLikelihood = optimizer_.logLikelihood(model.pose);
 }
@@ -385,11 +389,29 @@ FinalPose HybridSearch::polishBest() { return bestBeside(optimizer_.finish(optim
 
 // Keeps the distortion only if the data speak for it.
 Optimum HybridSearch::optimumOfBest() {
-  Optimum result = optimizer_.polish(best_.pose);
+  Optimum result = polished();
   if (!estimated_.radial || optimizer_.logEvidenceForDistortion(result) > options_.distortionEvidence) return result;
   best_.pose = result.pose;
   takeOutDistortion();
-  return optimizer_.polish(best_.pose);
+  return polished();
+}
+
+// The thresholds at the optimum may be others than those at the pose from which it was found. The noise depends on them where there are
+// few matches, and so would the result depend on where the search came from.
+Optimum HybridSearch::polished() {
+  constexpr int kMostRounds = 4;
+  constexpr double kSame = 0.1;
+  Optimum result = optimizer_.polish(best_.pose);
+  for (int round = 1; round < kMostRounds; ++round) {
+    const Thresholds before = scorer_.thresholds(), there = thresholdsAt(result.pose);
+    const double change =
+        std::max(std::abs(std::log(there.rays / before.rays)), std::abs(std::log(there.points / before.points)));
+    if (!(change > kSame)) break;
+    scorer_.setThresholds(there);
+    best_.pose = result.pose;
+    result = optimizer_.polish(best_.pose);
+  }
+  return result;
 }
 
 void HybridSearch::takeOutDistortion() {

@@ -111,12 +111,14 @@ class HybridSearch {
   void consider(const Model& candidate);
   void compare(const Model& optimized);
   void setThresholds(const Model& model);
+  Thresholds thresholdsAt(const QueryPose& pose) const;
   void findThresholds(Model& model);
   void tryNarrowerThreshold(Model& model);
   void replaceIfLikelier(const QueryPose& pose, Model& model) const;
   void escapeLocalOptimum(Model& model, std::initializer_list<double> distanceFactors) const;
   FinalPose polishBest();
   Optimum optimumOfBest();
+  Optimum polished();
   FinalPose bestBeside(FinalPose best) const;
   FinalPose polishedAtDistance(const FinalPose& pose, double factor) const;
   bool isBetterDetermined(const FinalPose& pose, const FinalPose& than) const;
