@@ -34,16 +34,19 @@ ErrorMixture makeMixture(double deviation, double scale, double density, const I
 
 KindLoss ErrorMixture::loss() const { return {Loss::Mixture, scale, 2 / (scale * scale), odds}; }
 
+double ErrorMixture::oddsAt(double squaredError) const {
+  const double q = 1 + squaredError / (scale * scale), q2 = q * q, q4 = q2 * q2;
+  return odds / (q4 * q4);
+}
+
 double ErrorMixture::logLikelihood(const std::vector<double>& squaredErrors) const {
   // The sum of logs as the log of products, which are taken before they can overflow: every factor is from 1 to 1e9 + 1.
   constexpr std::size_t kFactors = 32;
   double sum = static_cast<double>(squaredErrors.size()) * std::log(outlierShare);
   for (std::size_t i = 0; i < squaredErrors.size();) {
     double product = 1;
-    for (const std::size_t end = std::min(i + kFactors, squaredErrors.size()); i < end; ++i) {
-      const double q = 1 + squaredErrors[i] / (scale * scale), q2 = q * q, q4 = q2 * q2;
-      product *= 1 + odds / (q4 * q4);
-    }
+    for (const std::size_t end = std::min(i + kFactors, squaredErrors.size()); i < end; ++i)
+      product *= 1 + oddsAt(squaredErrors[i]);
     sum += std::log(product);
   }
   return sum;

@@ -24,6 +24,8 @@ struct ErrorMixture {
                         // threshold and the bound
 
   KindLoss loss() const;
+  // How many times as likely an inlier's as an outlier's an error is.
+  double oddsAt(double squaredError) const;
   // Log of the likelihood of the errors over that of outliers only.
   double logLikelihood(const std::vector<double>& squaredErrors) const;
 };

@@ -94,12 +94,21 @@ class LocalOptimizer {
   QueryPose leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
                            const Steps& steps) const;
   QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
-  Optimum withoutLevers(const QueryPose& start, const Kinds& kinds) const;
-  Optimum bestOfOtherStarts(const Optimum& first) const;
+  // Whether it counts how deep in the scene a lever lies.
+  enum class LeverTest { WithDepths, WithoutDepths };
+  Optimum withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test) const;
+  Optimum likeliestBeside(const Optimum& first, const QueryPose& firstStart) const;
+  QueryPose withFaintRays(const QueryPose& start, const Kinds& kinds) const;
   double logEvidenceOf(const Optimum& optimum) const;
+  double logLikelihoodOfDepths(const QueryPose& pose, const SquaredErrors& errors) const;
+  struct Round {
+    LeastSquaresProblem problem;
+    Noise noise;
+    Steps steps;
+    LeverTest test;
+  };
   // Refuses levers that the other correspondences do not predict; the pose becomes the one without levers. Whether there are any.
-  bool refuse(const std::vector<std::size_t>& levers, const LeastSquaresProblem& robust, const Noise& noise, const Steps& steps,
-              QueryPose& pose, RayTreatment& treatment) const;
+  bool refuse(const std::vector<std::size_t>& levers, const Round& round, QueryPose& pose, RayTreatment& treatment) const;
   void leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const;
   // -2 log of the likelihood of what is estimated of the camera, before anything is seen.
   double priorCost(const QueryPose& pose) const;

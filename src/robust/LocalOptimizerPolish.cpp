@@ -24,35 +24,42 @@ constexpr double kBenefitOfDoubt = 10;
 
 Optimum LocalOptimizer::polish(const QueryPose& start) const {
   const Kinds kinds = moreThanChance(start);
-  const Optimum optimum = withoutLevers(likeliest(start, kinds, 1, kCoarse), kinds);
-  return optimum.treatment.refused().empty() ? optimum : bestOfOtherStarts(optimum);
+  const QueryPose likely = likeliest(start, kinds, 1, kCoarse);
+  const Optimum optimum = withoutLevers(likely, kinds, LeverTest::WithDepths);
+  return optimum.treatment.refused().empty() ? optimum : likeliestBeside(optimum, likely);
 }
 
 // Where rays had to be refused, the likelihood has optima near each other, one for each part of such rays that is believed. So it is
-// optimized from where the points alone lead, and from where the rays count less, too.
-Optimum LocalOptimizer::bestOfOtherStarts(const Optimum& first) const {
-  constexpr double kLess = 4;  // times as large a standard deviation
+// optimized from where the points alone lead, and from where the rays count less, too; and, because several rays at depths that are
+// each implausible can be right if they agree, from the first start without a look at the depths.
+Optimum LocalOptimizer::likeliestBeside(const Optimum& first, const QueryPose& firstStart) const {
   const Kinds& kinds = first.kinds;
   Optimum best = first;
   double evidence = logEvidenceOf(first);
-  const auto consider = [&](const QueryPose& start) {
-    const Optimum other = withoutLevers(start, kinds);
+  const auto consider = [&](const QueryPose& start, LeverTest test) {
+    const Optimum other = withoutLevers(start, kinds, test);
     const double ofOther = logEvidenceOf(other);
     if (!(ofOther > evidence)) return;
     best = other;
     evidence = ofOther;
   };
-  const Noise at = noise(squaredErrors(first.pose, kinds));
-  KindLoss rays = at.rays.loss();
-  rays.scale *= kLess;
-  rays.precision /= kLess * kLess;
-  consider(minimize(problem(rays, at.points.loss(), kinds), first.pose, limits(kCoarse)).pose);
-  if (kinds.points) consider(likeliest(first.pose, {false, true}, 2, kCoarse));
+  consider(withFaintRays(first.pose, kinds), LeverTest::WithDepths);
+  if (kinds.points) consider(likeliest(first.pose, {false, true}, 2, kCoarse), LeverTest::WithDepths);
+  consider(firstStart, LeverTest::WithoutDepths);
   return best;
 }
 
+QueryPose LocalOptimizer::withFaintRays(const QueryPose& start, const Kinds& kinds) const {
+  constexpr double kLarger = 4;  // deviation
+  const Noise at = noise(squaredErrors(start, kinds));
+  KindLoss rays = at.rays.loss();
+  rays.scale *= kLarger;
+  rays.precision /= kLarger * kLarger;
+  return minimize(problem(rays, at.points.loss(), kinds), start, limits(kCoarse)).pose;
+}
+
 // The losses of the rays are narrowed, and some are refused; only the last round goes to full precision.
-Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds) const {
+Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test) const {
   // A focal length that is not free gives the levers less to move. With unknown distortion this is done twice, with and without it.
   const int rounds = estimated_.focalLength && !lens_.isUnknown ? 3 : 2;
   RayTreatment treatment(scorer_.arrays().rays().size());
@@ -64,7 +71,7 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
     const Noise at = noise(errors, kBenefitOfDoubt);
     const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
     Levers levers = leversOf(robust, pose, treatment);
-    if (refuse(levers.rays, robust, at, steps, pose, treatment)) {
+    if (refuse(levers.rays, {robust, at, steps, test}, pose, treatment)) {
       const PaddedValues before = treatment.narrowing();
       levers.leverages = rayLeverages(narrowed(robust, before), pose);
     }
@@ -79,8 +86,9 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
 // the odds that it is an inlier are then those of an error 1 / sqrt(v) as large, in a range that is sqrt(v) times as wide. A ray that
 // is predicted to +- 30 standard deviations agrees by chance 30 times more easily than one predicted to +- 1. And a lever is mostly one
 // because it is said to meet its viewing ray close to the cameras, where the scene as a rule is not.
-bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const LeastSquaresProblem& robust, const Noise& noise,
-                            const Steps& steps, QueryPose& pose, RayTreatment& treatment) const {
+bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const Round& round, QueryPose& pose,
+                            RayTreatment& treatment) const {
+  const auto& [robust, noise, steps, test] = round;
   if (levers.empty()) return false;
   RayTreatment without = treatment;
   without.refuse(levers);
@@ -99,9 +107,8 @@ bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const LeastS
   const DepthPrior depths(scorer_.arrays(), others, errors, noise);
   std::vector<std::size_t> refused;
   for (const std::size_t i : levers) {
-    const double v = 1 + predicted[i], x = ofRays[i] / (v * noise.rays.scale * noise.rays.scale);
-    const double odds = depths.plausibility(i) * noise.rays.odds / (std::sqrt(v) * std::pow(1 + x, 8));
-    if (!(odds > 1)) refused.push_back(i);
+    const double v = 1 + predicted[i], plausibility = test == LeverTest::WithDepths ? depths.plausibility(i) : 1;
+    if (!(plausibility * noise.rays.oddsAt(ofRays[i] / v) / std::sqrt(v) > 1)) refused.push_back(i);
   }
   if (refused.empty()) return false;
   treatment.refuse(refused);
@@ -125,8 +132,20 @@ void LocalOptimizer::leaveOutLevers(const LeastSquaresProblem& inliers, RayTreat
   result.covariance += change * change.transpose();
 }
 
-// The likelihood times the extent of the parameters that the inliers leave open: the integral over the parameters, but for a factor. Refused
-// rays are outliers.
+// Where the depth of a ray is counted, its odds to be an inlier are g times as large.
+double LocalOptimizer::logLikelihoodOfDepths(const QueryPose& pose, const SquaredErrors& errors) const {
+  const Noise at = noise(errors);
+  const DepthPrior depths(scorer_.arrays(), pose, errors, at);
+  double result = 0;
+  for (std::size_t i = 0; i < errors.rays.size(); ++i) {
+    const double odds = at.rays.oddsAt(errors.rays[i]);
+    if (odds > 0) result += std::log((1 + depths.plausibility(i) * odds) / (1 + odds));
+  }
+  return result;
+}
+
+// The likelihood, with the depths of the rays, times the extent of the parameters that the inliers leave open: the integral over the
+// parameters, but for a factor. Refused rays are outliers.
 double LocalOptimizer::logEvidenceOf(const Optimum& optimum) const {
   const PaddedValues narrowing = optimum.treatment.narrowing();
   const LeastSquaresProblem inliers = narrowed(likelierInliers(optimum.noise, optimum.kinds), narrowing);
@@ -135,7 +154,7 @@ double LocalOptimizer::logEvidenceOf(const Optimum& optimum) const {
   const double halfLogDeterminant = FullParameterMatrix(cholesky.matrixL()).diagonal().array().log().sum();
   SquaredErrors errors = squaredErrors(optimum.pose, kBothKinds);
   optimum.treatment.leaveOut(errors.rays);
-  return logLikelihood(optimum.pose, errors) - halfLogDeterminant;
+  return logLikelihood(optimum.pose, errors) + logLikelihoodOfDepths(optimum.pose, errors) - halfLogDeterminant;
 }
 
 }  // namespace robust

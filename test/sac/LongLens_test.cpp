@@ -77,8 +77,9 @@ sac::HybridRansacResult localize(const HybridScene& scene, std::uint64_t seed) {
 
 class LongLens : public testing::TestWithParam<double> {};
 
+// Half a per cent of them, which are more than 1.5 per cent of so many with a probability of a thousandth.
 TEST_P(LongLens, HardlyAnyErrorIsFarBeyondTheStatedDeviation) {
-  constexpr int kScenes = 300;
+  constexpr int kScenes = 600;
   Random random(testSeed() + 9400);
   int success = 0, beyond = 0;
   for (int i = 0; i < kScenes; ++i) {
@@ -88,7 +89,7 @@ TEST_P(LongLens, HardlyAnyErrorIsFarBeyondTheStatedDeviation) {
     beyond += std::abs(result.pose.focalLength - kFocalLength) > 5 * result.focalLengthStandardDeviation;
   }
   EXPECT_GE(success, kScenes * 8 / 10);
-  EXPECT_LE(beyond, kScenes / 100);
+  EXPECT_LE(beyond, kScenes * 3 / 200);
 }
 
 TEST_P(LongLens, TheSeedChangesTheResultByLessThanTheStatedDeviation) {

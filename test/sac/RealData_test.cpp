@@ -151,7 +151,7 @@ TEST_F(RealModel, CraneAndKermitWithTheirOwnLenses) {
   EXPECT_LT(quantile(hybrid, 0.5), 0.25);
   for (const double outlierShare : {0.3, 0.5}) {
     hybrid.clear();
-    localizeAll("kermit/bundle.out", outlierShare, 20, false);
+    localizeAll("kermit/bundle.out", outlierShare, 60, false);
     if (IsSkipped()) return;
     EXPECT_LT(quantile(hybrid, 0.5), outlierShare > 0.4 ? 1.1 : 0.95) << outlierShare;
   }
