@@ -505,9 +505,16 @@ FinalPose HybridSearch::finish(bool optimize) {
 FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
   scorer.setThresholds(scorer_.thresholds());
-  const ChanceModel chance(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
-  const QueryFeatures features(all_.arrays);
-  const LocalOptimizer optimizer = makeOptimizer(scorer, chance, features);
+  std::optional<ChanceModel> chance;
+  std::optional<QueryFeatures> features;
+  workers_.forEach(2, [&](int i, std::size_t) {
+    if (i == 0)
+      chance.emplace(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
+    else
+      features.emplace(all_.arrays);
+  });
+  LocalOptimizer optimizer = makeOptimizer(scorer, *chance, *features);
+  optimizer.setWorkers(workers_);
   FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
   optimizer.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;

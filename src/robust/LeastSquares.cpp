@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "correspondences/arrayParts.hpp"
 #include "robust/FixedSize.hpp"
 #include "robust/toPlain.hpp"
 
@@ -34,8 +36,47 @@ int kernelParameter(Intrinsics estimated, int parameter) {
   return parameter < kPoseParameters || estimated.focalLength ? parameter : parameter + 1;
 }
 
+// Sums over many correspondences are those of parts, which are the same for any number of threads.
+constexpr std::size_t kPart = 2048;
+static_assert(kPart % correspondences::kPadding == 0, "a part begins where the kernels may begin");
+
+std::size_t numberOfParts(bool takePart, std::size_t size) { return takePart ? (size + kPart - 1) / kPart : 0; }
+
+template <class Arrays>
+Arrays partAt(const Arrays& arrays, std::size_t number) {
+  return correspondences::part(arrays, number * kPart, std::min((number + 1) * kPart, arrays.size));
+}
+
+void add(const NormalEquations& part, NormalEquations& sums) {
+  sums.cost += part.cost;
+  for (int row = 0; row < kMostParameters; ++row) {
+    sums.gradient[row] += part.gradient[row];
+    for (int column = row; column < kMostParameters; ++column) sums.hessian[row][column] += part.hessian[row][column];
+  }
+}
+
+NormalEquations sumOfParts(const LeastSquaresProblem& problem, const PlainPose& pose, std::size_t ofPoints, std::size_t ofRays) {
+  std::vector<NormalEquations> parts(ofPoints + ofRays);
+  const auto addPart = [&](std::size_t number) {
+    if (number < ofPoints)
+      problem.kernels->addPoints(partAt(problem.points, number), pose, problem.pointLoss, parts[number]);
+    else
+      problem.kernels->addRays(partAt(problem.rays, number - ofPoints), pose, problem.rayLoss, parts[number]);
+  };
+  if (problem.workers != nullptr)
+    problem.workers->forEach(static_cast<int>(parts.size()), [&](int i, std::size_t) { addPart(static_cast<std::size_t>(i)); });
+  else
+    for (std::size_t i = 0; i < parts.size(); ++i) addPart(i);
+  NormalEquations sums;
+  for (const NormalEquations& part : parts) add(part, sums);
+  return sums;
+}
+
 NormalEquations normalEquations(const LeastSquaresProblem& problem, const QueryPose& pose) {
   const PlainPose plain = toPlain(pose);
+  const std::size_t ofPoints = numberOfParts(problem.kinds.points, problem.points.size);
+  const std::size_t ofRays = numberOfParts(problem.kinds.rays, problem.rays.size);
+  if (ofPoints > 1 || ofRays > 1) return sumOfParts(problem, plain, ofPoints, ofRays);
   NormalEquations sums;
   if (problem.kinds.points) problem.kernels->addPoints(problem.points, plain, problem.pointLoss, sums);
   if (problem.kinds.rays) problem.kernels->addRays(problem.rays, plain, problem.rayLoss, sums);

@@ -8,6 +8,7 @@
 #include "robust/ParameterMatrix.hpp"
 #include "robust/PerKind.hpp"
 #include "robust/QueryPose.hpp"
+#include "robust/WorkerPool.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -37,6 +38,8 @@ struct LeastSquaresProblem {
   Intrinsics estimated;      // the others keep the value that they have in the pose
   DistortionPrior distortionPrior = {};
   FocalLengthPrior focalLengthPrior = {};
+  // Share the work where there are many correspondences, if given. The results are the same, to the bit.
+  WorkerPool* workers = nullptr;
 };
 
 struct LeastSquaresOptions {

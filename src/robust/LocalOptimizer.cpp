@@ -203,6 +203,7 @@ LeastSquaresProblem LocalOptimizer::problem(const KindLoss& rayLoss, const KindL
   result.kinds = kinds;
   result.distortionPrior = lens_.prior;
   result.focalLengthPrior = focalLengthPrior_;
+  result.workers = workers_;
   return result;
 }
 

@@ -37,6 +37,9 @@ class LocalOptimizer {
   LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features, double minFocalLength,
                  double maxFocalLength, Intrinsics estimated = {}, Lens lens = {}, FocalLengthPrior focalLengthPrior = {});
 
+  // From now on they share the work where there are many correspondences. They must outlive the optimizer.
+  void setWorkers(WorkerPool& workers) { workers_ = &workers; }
+
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
   // wide, because a solution from noisy points is far from most viewing rays, and narrows down to the thresholds.
   QueryPose refine(const QueryPose& start) const;
@@ -123,6 +126,7 @@ class LocalOptimizer {
   Intrinsics estimated_;
   Lens lens_;
   FocalLengthPrior focalLengthPrior_;
+  WorkerPool* workers_ = nullptr;
 };
 
 }  // namespace robust

@@ -16,9 +16,7 @@ constexpr double kThreshold = 10, kChanceShare = 0.05;
 
 InlierCount half(std::size_t all) { return {all / 2, all, kThreshold, kThreshold, kChanceShare}; }
 
-double oddsAt(const ErrorMixture& mixture, double error) {
-  return mixture.odds * std::pow(1 + std::pow(error / mixture.scale, 2), -8);
-}
+double oddsAt(const ErrorMixture& mixture, double error) { return mixture.oddsAt(error * error); }
 
 // The integral of f from 0 to infinity, with x = t / (1 - t).
 template <class Function>

@@ -4,10 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "HybridScene.hpp"
 #include "WideScene.hpp"
+#include "correspondences/PaddedValues.hpp"
+#include "correspondences/arrayParts.hpp"
 #include "robust/Leverage.hpp"
 
 namespace hybridgv {
@@ -120,6 +124,39 @@ TEST(LeastSquares, AKindThatDoesNotTakePartDoesNotMatter) {
   const ParameterMatrix sum = information(rays, data.truth) + information(points, data.truth);
   EXPECT_LT((information(both, data.truth) - sum).norm(), 1e-9 * sum.norm());
   EXPECT_EQ(rayLeverages(points, data.truth), std::vector<double>(20, 0));
+}
+
+// Sums over many correspondences are made of parts: they are those over all, and the same for any number of threads.
+TEST(LeastSquares, ThreadsShareManyCorrespondencesWithTheSameBits) {
+  test::Random random(test::testSeed(), 147);
+  const Data data(random, 5003, 2049, 1);
+  for (const Intrinsics estimated : {kUnknownFocalLength, kKnownFocalLength, Intrinsics{true, true}}) {
+    LeastSquaresProblem problem = data.problem(estimated);
+    std::vector<double> values(5003);
+    for (double& value : values) value = random.uniform(1, 3);
+    const correspondences::PaddedValues narrowing(values, 1);
+    problem.rays.narrowing = narrowing.pointer();
+    problem.rayLoss = {Loss::Mixture, 10, 0.02, 50};
+    problem.pointLoss = {Loss::Truncated, 10, 0.01};
+    ParameterMatrix whole = ParameterMatrix::Zero(estimated.parameters(), estimated.parameters());
+    for (std::size_t i = 0; i < 5003; i += 8) {
+      LeastSquaresProblem part = problem;
+      part.kinds = {true, i < 2049};
+      part.rays = correspondences::part(problem.rays, i, std::min<std::size_t>(i + 8, 5003));
+      if (i < 2049) part.points = correspondences::part(problem.points, i, std::min<std::size_t>(i + 8, 2049));
+      whole += information(part, data.truth);
+    }
+    const ParameterMatrix alone = information(problem, data.truth);
+    EXPECT_LT((alone - whole).norm(), 1e-9 * whole.norm());
+    const LeastSquaresResult minimum = minimize(problem, data.truth);
+    for (const std::size_t threads : {1, 2, 5}) {
+      WorkerPool workers(threads);
+      problem.workers = &workers;
+      EXPECT_EQ(information(problem, data.truth), alone) << threads;
+      EXPECT_EQ(minimize(problem, data.truth).pose.position, minimum.pose.position) << threads;
+      EXPECT_EQ(minimize(problem, data.truth).cost, minimum.cost) << threads;
+    }
+  }
 }
 
 TEST(ParameterMatrix, OfAFocalPoseHasNoEntriesForWhatIsKnownAndLeavesTheDistortionOut) {

@@ -364,6 +364,22 @@ TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
   EXPECT_NE(hybridRansac(adapter, options).iterationsPerSolver, one.iterationsPerSolver);
 }
 
+TEST(HybridRansac, ThreadsThatShareManyCorrespondencesGiveEqualBits) {
+  test::Random random(test::testSeed(), 188);
+  const HybridScene scene = test::makeHybridScene(random, noisy(6001, 4999, 0.3));
+  const NoncentralHybridAdapter adapter = scene.adapter();
+  for (const bool isKnown : {false, true}) {
+    HybridRansacOptions options;
+    if (isKnown) options.knownFocalLengthPx = scene.truth.focalLength;
+    const HybridRansacResult one = hybridRansac(adapter, options);
+    EXPECT_TRUE(one.success);
+    for (const int threads : {2, 5}) {
+      options.threads = threads;
+      expectEqual(one, hybridRansac(adapter, options));
+    }
+  }
+}
+
 // 60 right rays tell their noise. A bound that is twice as wide must not make them count less because the points are noisier: the
 // results differ by a small part of their deviation.
 TEST(HybridRansac, AWiderBoundDoesNotChangeWhatRaysCount) {
