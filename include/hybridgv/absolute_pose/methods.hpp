@@ -59,7 +59,7 @@ HYBRIDGV_EXPORT FocalPoses p35pf(const hybrid_pose::HybridAdapterBase& adapter);
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices, data that are not finite, and a focal length that
 ///         is not positive and finite
 ///
-/// A pair of lines in a pencil of conics: one root of a cubic and quadratic equations; about 0.03 times OpenGV's gp3p.
+/// A pair of lines in a pencil of conics: one root of a cubic and quadratic equations; about 0.02 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses p3p(const hybrid_pose::HybridAdapterBase& adapter, double focalLength,
                                const std::vector<int>& indices);
 /// P3P on the adapter's first three 2D-3D correspondences.

@@ -182,7 +182,7 @@ HYBRIDGV_EXPORT FocalPoses h22(const HybridAdapterBase& adapter, double focalLen
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices, correspondences of different rig cameras, data that are not finite, and a focal length that is
 ///         not positive and finite
 ///
-/// relative_pose::fivept and one linear equation; about 0.3 times OpenGV's gp3p.
+/// relative_pose::fivept and one linear equation; about 0.22 times OpenGV's gp3p.
 HYBRIDGV_EXPORT FocalPoses h41(const HybridAdapterBase& adapter, double focalLength,
                                const std::vector<std::vector<int>>& indices);
 /// H41 on the adapter's first correspondences.
@@ -199,7 +199,7 @@ HYBRIDGV_EXPORT FocalPoses h41(const HybridAdapterBase& adapter, double focalLen
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices, rays that are shared by rig cameras in another way, data that are not finite, and a focal length that is
 ///         not positive and finite
 ///
-/// relative_pose::fivept and one linear equation; about 0.3 times OpenGV's gp3p. Six rays of other patterns have up to 64 solutions,
+/// relative_pose::fivept and one linear equation; about 0.22 times OpenGV's gp3p. Six rays of other patterns have up to 64 solutions,
 /// and are not solved here: where one camera has five rays, this is the sample to draw.
 HYBRIDGV_EXPORT FocalPoses h60(const HybridAdapterBase& adapter, double focalLength,
                                const std::vector<std::vector<int>>& indices);

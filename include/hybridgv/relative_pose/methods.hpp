@@ -61,7 +61,7 @@ HYBRIDGV_EXPORT FocalPoses sixpt_onefocal(const hybrid_pose::HybridAdapterBase& 
 /// \throws std::invalid_argument for too few, repeated or out-of-range indices, correspondences of different rig cameras, data that
 ///         are not finite, and a focal length that is not positive and finite
 ///
-/// The ten cubics of the essential matrix, reduced to one form of degree 10; about 0.3 times OpenGV's gp3p. The problem: Nister, "An
+/// The ten cubics of the essential matrix, reduced to one form of degree 10; about 0.2 times OpenGV's gp3p. The problem: Nister, "An
 /// efficient solution to the five-point relative pose problem", 2004.
 HYBRIDGV_EXPORT FocalPoses fivept(const hybrid_pose::HybridAdapterBase& adapter, double focalLength,
                                   const std::vector<int>& indices);
