@@ -18,7 +18,9 @@ class PaddedPointer {
   __attribute__((always_inline)) explicit operator bool() const { return values_ != nullptr; }
   __attribute__((always_inline)) const double* operator+(std::size_t i) const { return values_ + i; }
   // From the i-th number on, i a multiple of kPadding.
-  __attribute__((always_inline)) PaddedPointer from(std::size_t i) const { return values_ == nullptr ? *this : PaddedPointer(values_ + i); }
+  __attribute__((always_inline)) PaddedPointer from(std::size_t i) const {
+    return values_ == nullptr ? *this : PaddedPointer(values_ + i);
+  }
 
  private:
   friend class PaddedValues;

@@ -110,7 +110,8 @@ void SolverChoice::setWeights() {
 
 std::vector<double> SolverChoice::certainties() const {
   std::vector<double> result(allInlier_.size());
-  std::transform(allInlier_.begin(), allInlier_.end(), result.begin(), [](double p) { return -std::log1p(-std::min(p, kSurely)); });
+  std::transform(allInlier_.begin(), allInlier_.end(), result.begin(),
+                 [](double p) { return -std::log1p(-std::min(p, kSurely)); });
   return result;
 }
 
