@@ -19,15 +19,18 @@ constexpr double kDeviationsPerMedian = 1.4826;  // of normal values
 // The depths of rays change with the pose that they are to test; points are better where there are some.
 constexpr std::size_t kEnoughPoints = 5;
 
+// A number also at the query itself.
+double logOf(double depth) { return std::log(std::max(depth, std::numeric_limits<double>::min())); }
+
 bool isInlier(double squaredError, const ErrorMixture& noise) { return squaredError < noise.boundary * noise.boundary; }
 
-// Those of inliers in front.
+// Those of inliers, which are in front: behind the query errors are infinite.
 std::vector<double> logDepthsOfPoints(const CorrespondenceArrays& arrays, const QueryPose& pose,
                                       const std::vector<double>& squaredErrors, const ErrorMixture& noise) {
   std::vector<double> result;
   for (std::size_t i = 0; i < squaredErrors.size(); ++i)
     if (isInlier(squaredErrors[i], noise))
-      result.push_back(std::log(pose.rotation.col(2).dot(arrays.points()[i].point - pose.position)));
+      result.push_back(logOf(pose.rotation.col(2).dot(arrays.points()[i].point - pose.position)));
   return result;
 }
 
@@ -60,7 +63,7 @@ double DepthPrior::logDepth(std::size_t i) const {
   const Eigen::Vector3d w = pose_.rotation * Eigen::Vector3d(ray.u, ray.v, f), t = ray.centre - pose_.position;
   const Eigen::Vector3d s = w.cross(ray.direction), l = t.cross(ray.direction);
   const double depth = f * l.dot(s) / s.squaredNorm(), most = t.cross(w).norm() / (kDeviations * deviation_);
-  return std::log(std::max(depth > 0 && depth < most ? depth : most, std::numeric_limits<double>::min()));
+  return logOf(depth > 0 && depth < most ? depth : most);
 }
 
 }  // namespace robust

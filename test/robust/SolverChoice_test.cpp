@@ -46,7 +46,7 @@ TEST(SolverChoice, WeightIsPriorTimesWhatASampleAddsToCertaintyOverCostHoweverOf
   for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(share[s], weight[s] / sum, 1e-4);
 }
 
-// Three samples of a kind that always has inliers only say as much as hundreds of one that seldom has.
+// A sample that fails once in a million says as much as 131 that have inliers only once in ten.
 TEST(SolverChoice, ASlowSolverIsDrawnWhereItsSamplesAreAlmostSure) {
   SolverChoice choice({mock(1, 1), mock(1, 20)});
   choice.setAllInlierProbabilities({0.1, 1 - 1e-6});

@@ -77,7 +77,7 @@ sac::HybridRansacResult localize(const HybridScene& scene, std::uint64_t seed) {
 
 class LongLens : public testing::TestWithParam<double> {};
 
-// Half a per cent of them, which are more than 1.5 per cent of so many with a probability of a thousandth.
+// Of several thousand, 0.7 per cent where half of the matches are wrong; more than 1.5 per cent of so many are then one case in a hundred.
 TEST_P(LongLens, HardlyAnyErrorIsFarBeyondTheStatedDeviation) {
   constexpr int kScenes = 600;
   Random random(testSeed() + 9400);
