@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "robust/ChosenArrays.hpp"
+#include "robust/KernelRows.hpp"
 #include "robust/numberEqual.hpp"
 #include "robust/toPlain.hpp"
 
@@ -83,27 +84,6 @@ Members indicesOf(const std::vector<Place>& places) {
   return indices;
 }
 
-// The rows of the kernels, of which each column has the padded size.
-class Rows {
- public:
-  Rows(std::size_t size, std::size_t columns) : length_(correspondences::padded(size)), values_(columns * length_) {}
-  double* data() { return values_.data(); }
-  double operator()(std::size_t row, std::size_t column) const { return values_[column * length_ + row]; }
-  double weight(std::size_t row) const { return (*this)(row, 0); }
-  // By the parameters.
-  FullParameterVector derivatives(std::size_t row, std::size_t firstColumn) const {
-    FullParameterVector result;
-    for (Eigen::Index k = 0; k < result.size(); ++k) result[k] = (*this)(row, firstColumn + static_cast<std::size_t>(k));
-    return result;
-  }
-
- private:
-  std::size_t length_;
-  std::vector<double> values_;
-};
-
-constexpr std::size_t kFirstDerivative = 1, kSecondDerivative = 1 + correspondences::kMostParameters;
-
 class Sharers {
  public:
   Sharers(const LeastSquaresProblem& problem, const QueryPose& pose, const QueryFeatures& features, const JackknifeGroups& groups)
@@ -135,7 +115,7 @@ class Sharers {
           return keyOf(std::array<double, 6>{rays.cx[i], rays.cy[i], rays.cz[i], rays.dx[i], rays.dy[i], rays.dz[i]});
         });
     ChosenArrays chosen;
-    Rows rows(places.size(), kRayRow);
+    KernelRows rows(places.size(), kRayRow);
     problem_.kernels->rayRows(chosen.rays(rays, indicesOf(places)), pose_, problem_.rayLoss, rows.data());
     addInliers(places, rows, rays_, [&](std::size_t row, Sharer& sharer) {
       sharer.gradient.col(0) = sharer.weight * rows.derivatives(row, kFirstDerivative);
@@ -153,7 +133,7 @@ class Sharers {
           return keyOf(std::array<double, 3>{points.x[i], points.y[i], points.z[i]});
         });
     ChosenArrays chosen;
-    Rows rows(places.size(), kPointRow);
+    KernelRows rows(places.size(), kPointRow);
     problem_.kernels->pointRows(chosen.points(points, indicesOf(places)), pose_, problem_.pointLoss, rows.data());
     addInliers(places, rows, points_, [&](std::size_t row, Sharer& sharer) {
       sharer.gradient.col(0) = sharer.weight * rows.derivatives(row, kFirstDerivative);
@@ -165,7 +145,7 @@ class Sharers {
 
   // `fill` is called with the row of each.
   template <class Fill>
-  static void addInliers(const std::vector<Place>& places, const Rows& rows, std::vector<Sharer>& list, Fill fill) {
+  static void addInliers(const std::vector<Place>& places, const KernelRows& rows, std::vector<Sharer>& list, Fill fill) {
     list.reserve(places.size());
     for (std::size_t row = 0; row < places.size(); ++row) {
       if (!(rows.weight(row) > 0)) continue;
@@ -248,13 +228,6 @@ FullParameterMatrix sharedSquares(const std::vector<const Sharer*>& sharers, Key
   return result;
 }
 
-ParameterMatrix estimated(const FullParameterMatrix& matrix, Intrinsics intrinsics) {
-  NormalEquations sums;
-  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
-    for (Eigen::Index column = row; column < matrix.cols(); ++column) sums.hessian[row][column] = matrix(row, column);
-  return estimatedPart(sums, intrinsics);
-}
-
 }  // namespace
 
 std::optional<SharedInformation> sharedInformation(const LeastSquaresProblem& problem, const QueryPose& pose,
@@ -268,8 +241,8 @@ std::optional<SharedInformation> sharedInformation(const LeastSquaresProblem& pr
   const FullParameterMatrix ofFeatures = variance * sharedSquares(sharers, featureOf<Sharer>, ofFeature);
   const FullParameterMatrix ofGroups = variance * sharedSquares(sharers, groupOf<Sharer>, ofFeature);
   const FullParameterMatrix ofItems = sharedSquares(sharers, itemOf<Sharer>, own);
-  SharedInformation result{estimated(ofFeatures + ofItems, problem.estimated),
-                           estimated(ofFeatures - ofGroups, problem.estimated)};
+  SharedInformation result{estimatedPart(ofFeatures + ofItems, problem.estimated),
+                           estimatedPart(ofFeatures - ofGroups, problem.estimated)};
   // Where squares of derivatives are beyond the doubles, nothing can be said.
   if (!result.all.allFinite() || !result.betweenGroups.allFinite()) return std::nullopt;
   return result;

@@ -492,7 +492,7 @@ FinalPose HybridSearch::finish(bool optimize) {
   }
   FinalPose result = optimize ? polishBest() : optimizer_.finish(optimizer_.keep(best_.pose));
   if (part_)
-    result = fitToAll(result.pose, optimize);
+    result = fitToAll(result, optimize);
   else
     optimizer_.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;
@@ -502,7 +502,7 @@ FinalPose HybridSearch::finish(bool optimize) {
   return result;
 }
 
-FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
+FinalPose HybridSearch::fitToAll(const FinalPose& ofPart, bool optimize) {
   PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
   scorer.setThresholds(scorer_.thresholds());
   std::optional<ChanceModel> chance;
@@ -515,7 +515,8 @@ FinalPose HybridSearch::fitToAll(const QueryPose& pose, bool optimize) {
   });
   LocalOptimizer optimizer = makeOptimizer(scorer, *chance, *features);
   optimizer.setWorkers(workers_);
-  FinalPose result = optimizer.finish(optimize ? optimizer.polishNear(pose) : optimizer.keep(pose));
+  FinalPose result =
+      optimizer.finish(optimize ? optimizer.polishNear(ofPart.pose, ofPart.rayWeight) : optimizer.keep(ofPart.pose));
   optimizer.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;
   scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});

@@ -135,7 +135,7 @@ class HybridSearch {
   bool isDetermined(const FinalPose& final) const;
   // The best model has been optimized for a part of the correspondences.
   // With `optimize`, for all of them; masks, score, noise and covariance are those of all anyway.
-  FinalPose fitToAll(const QueryPose& pose, bool optimize);
+  FinalPose fitToAll(const FinalPose& ofPart, bool optimize);
   void judgeAll(const PoseScorer& scorer);
   InlierCounts inlierCounts(const QueryPose& pose) const;
 

@@ -112,16 +112,11 @@ Changes changesWithoutGroups(const LeastSquaresProblem& problem, const QueryPose
   return changes;
 }
 
-// In coordinates in which the covariance C = L L^T is the identity, the largest eigenvalue of the sum of G random matrices over N
-// parameters exceeds 1 by chance, up to (1 + sqrt(N/G))^2.
-FullParameterMatrix inflated(const FullParameterMatrix& L, const FullParameterMatrix& jackknife, int groups, int parameters) {
-  const auto lower = L.triangularView<Eigen::Lower>();
-  const FullParameterMatrix half = lower.solve(jackknife);
-  const FullParameterMatrix halfTransposed = half.transpose();
-  const Eigendecomposition white = eigendecomposition(lower.solve(halfTransposed));
-  const double root = std::sqrt(static_cast<double>(parameters) / groups), byChance = root * (2 + root);
-  const FullParameterVector factors = (white.values.array() - byChance).cwiseMax(1);
-  return L * white.withValues(factors) * L.transpose();
+// In coordinates in which the covariance is the identity, the largest eigenvalue of the sum of G random matrices over N parameters exceeds
+// 1 by chance, up to (1 + sqrt(N/G))^2.
+double excessByChance(int groups, int parameters) {
+  const double root = std::sqrt(static_cast<double>(parameters) / groups);
+  return root * (2 + root);
 }
 
 }  // namespace
@@ -155,7 +150,7 @@ bool jackknifeCovariance(const LeastSquaresProblem& problem, const QueryPose& po
   }
   const Eigen::LLT<FullParameterMatrix> cholesky(extendedByIdentity(covariance));
   if (changes.count() >= 2 && cholesky.info() == Eigen::Success)
-    covariance = inflated(cholesky.matrixL(), jackknife, changes.count(), size).topLeftCorner(size, size);
+    covariance = enlarged(cholesky.matrixL(), jackknife, excessByChance(changes.count(), size)).topLeftCorner(size, size);
   return covariance.allFinite();
 }
 

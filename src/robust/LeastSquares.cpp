@@ -212,6 +212,11 @@ LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLo
   return {&kernels(model), arrays.pointArrays(), arrays.rayArrays(), pointLoss, rayLoss, kBothKinds, estimated, {}};
 }
 
+LeastSquaresProblem withoutRays(LeastSquaresProblem problem) {
+  problem.kinds.rays = false;
+  return problem;
+}
+
 LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options) {
   return withFixedSize(problem.estimated.parameters(),
                        [&](auto size) { return minimizeFixed<decltype(size)::value>(problem, start, options); });
@@ -249,6 +254,15 @@ ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated)
     for (int column = row; column < size; ++column)
       result(row, column) = result(column, row) =
           sums.hessian[kernelParameter(estimated, row)][kernelParameter(estimated, column)];
+  return result;
+}
+
+ParameterMatrix estimatedPart(const FullParameterMatrix& sums, Intrinsics estimated) {
+  const int size = estimated.parameters();
+  ParameterMatrix result(size, size);
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column)
+      result(row, column) = sums(kernelParameter(estimated, row), kernelParameter(estimated, column));
   return result;
 }
 

@@ -63,6 +63,9 @@ struct LeastSquaresResult {
 LeastSquaresProblem makeProblem(const CorrespondenceArrays& arrays, const KindLoss& pointLoss, const KindLoss& rayLoss,
                                 Intrinsics estimated = {});
 
+// Its points alone.
+LeastSquaresProblem withoutRays(LeastSquaresProblem problem);
+
 // Never worse than the start: the cost of the result is at most that of the start. A start without finite cost or derivatives is
 // returned as it is, with converged = false, infinite cost and information 0.
 LeastSquaresResult minimize(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options = {});
@@ -81,6 +84,7 @@ ParameterPair gradientByImageShift(const LeastSquaresProblem& problem, const Que
 
 // Of the kernels' sums, what belongs to the parameters that are estimated.
 ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated);
+ParameterMatrix estimatedPart(const FullParameterMatrix& sums, Intrinsics estimated);
 ParameterVector estimatedGradient(const NormalEquations& sums, Intrinsics estimated);
 
 // The step of the estimated parameters that leads from one pose to another.

@@ -1,5 +1,6 @@
 #include "robust/LocalOptimizer.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "correspondences/PaddedValues.hpp"
+#include "robust/RaySlope.hpp"
 #include "robust/medians.hpp"
 
 namespace hybridgv {
@@ -127,11 +129,12 @@ QueryPose LocalOptimizer::refine(const QueryPose& start) const {
 
 QueryPose LocalOptimizer::settle(const QueryPose& start, const Kinds& kinds) const { return likeliest(start, kinds, 2, kCoarse); }
 
-QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
+QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
+                                    double rayWeight) const {
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
     const Noise at = noise(squaredErrors(pose, kinds));
-    pose = minimize(problem(at.rays.loss(), at.points.loss(), kinds), pose, limits(steps)).pose;
+    pose = minimize(problem(at.rays.loss(rayWeight), at.points.loss(), kinds), pose, limits(steps)).pose;
   }
   return pose;
 }
@@ -141,7 +144,7 @@ bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
   const Kinds kinds = moreThanChance(pose);
   const Noise at = noise(squaredErrors(pose, kinds));
   ParameterMatrix covariance;
-  return invertInformation(information(likelierInliers(at, kinds), pose), covariance) &&
+  return invertInformation(information(likelierInliers(at, kinds, 1), pose), covariance) &&
          varianceOfLogFocalLength(covariance, estimated_) < kSureDeviation * kSureDeviation;
 }
 
@@ -268,9 +271,13 @@ LeastSquaresProblem LocalOptimizer::narrowed(LeastSquaresProblem problem, const 
   return problem;
 }
 
-LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Kinds& kinds) const {
-  return problem(truncatedLoss(noise.rays.boundary, noise.rays.deviation),
+LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Kinds& kinds, double rayWeight) const {
+  return problem(truncatedLoss(noise.rays.boundary, noise.rays.deviation / std::sqrt(rayWeight)),
                  truncatedLoss(noise.points.boundary, noise.points.deviation), kinds);
+}
+
+LeastSquaresProblem LocalOptimizer::inliersOf(const Optimum& optimum) const {
+  return likelierInliers(optimum.noise, optimum.kinds, optimum.rayWeight);
 }
 
 double LocalOptimizer::logLikelihood(const QueryPose& pose) const { return logLikelihood(pose, squaredErrors(pose, kBothKinds)); }
@@ -286,30 +293,33 @@ double LocalOptimizer::priorCost(const QueryPose& pose) const {
 
 double LocalOptimizer::logEvidenceForDistortion(const Optimum& optimum) const {
   const PaddedValues narrowing = optimum.treatment.narrowing();
-  const LeastSquaresProblem inliers = narrowed(likelierInliers(optimum.noise, optimum.kinds), narrowing);
+  const LeastSquaresProblem inliers = narrowed(inliersOf(optimum), narrowing);
   ParameterMatrix covariance;
   if (!invertInformation(information(inliers, optimum.pose), covariance)) return -std::numeric_limits<double>::infinity();
   return logEvidence(optimum.pose.distortion, std::sqrt(varianceOfDistortion(covariance)), lens_.prior);
 }
 
-Optimum LocalOptimizer::optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const {
+Optimum LocalOptimizer::optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment,
+                                  double rayWeight) const {
   SquaredErrors errors = squaredErrors(pose, kBothKinds);
   treatment.leaveOut(errors.rays);
-  return {pose, kinds, treatment, finalNoise(errors)};
+  return {pose, kinds, treatment, finalNoise(errors), rayWeight};
 }
 
-Optimum LocalOptimizer::keep(const QueryPose& pose) const {
-  return optimumAt(pose, moreThanChance(pose), RayTreatment(scorer_.arrays().rays().size()));
+Optimum LocalOptimizer::keep(const QueryPose& pose) const { return keep(pose, 1); }
+
+Optimum LocalOptimizer::keep(const QueryPose& pose, double rayWeight) const {
+  return optimumAt(pose, moreThanChance(pose), RayTreatment(scorer_.arrays().rays().size()), rayWeight);
 }
 
-Optimum LocalOptimizer::polishNear(const QueryPose& start) const {
-  return keep(likeliest(start, moreThanChance(start), 1, {4, 1e-8}));
+Optimum LocalOptimizer::polishNear(const QueryPose& start, double rayWeight) const {
+  return keep(likeliest(start, moreThanChance(start), 1, {4, 1e-8}, rayWeight), rayWeight);
 }
 
 FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
   FinalPose result{optimum};
   const PaddedValues narrowing = optimum.treatment.narrowing();
-  const LeastSquaresProblem inliers = likelierInliers(optimum.noise, optimum.kinds);
+  const LeastSquaresProblem inliers = inliersOf(optimum);
   findCovariance(narrowed(inliers, narrowing), result);
   leaveOutLevers(inliers, optimum.treatment, result);
   return result;
@@ -319,7 +329,7 @@ FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
 void LocalOptimizer::allowForPrincipalPoint(double deviation, FinalPose& result) const {
   if (!result.isRegular || !(deviation > 0)) return;
   const PaddedValues narrowing = result.treatment.narrowing();
-  const LeastSquaresProblem inliers = narrowed(likelierInliers(result.noise, result.kinds), narrowing);
+  const LeastSquaresProblem inliers = narrowed(inliersOf(result), narrowing);
   ParameterMatrix byNoise;
   result.isRegular = invertInformation(information(inliers, result.pose), byNoise);
   if (!result.isRegular) return;
@@ -333,7 +343,25 @@ void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPos
   std::optional<SharedInformation> shared = sharedInformation(inliers, result.pose, features_, groups_);
   if (shared) correctNoise(at.information, *shared, result);
   result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, at, shared, result.covariance);
-  if (result.isRegular) result.effectiveParameters = (at.information * result.covariance).trace();
+  if (!result.isRegular) return;
+  result.effectiveParameters = (at.information * result.covariance).trace();
+  allowForDepths(inliers, at.information, result);
+}
+
+// The covariance is for derivatives that are known. What it lacks where those of the rays are not is added.
+void LocalOptimizer::allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information,
+                                    FinalPose& result) const {
+  const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), result.pose, result.noise.rays.deviation);
+  ParameterMatrix byInformation, bySlope;
+  if (!rays || !invertInformation(information, byInformation)) return;
+  // The weight is in the problem.
+  if (!covarianceBySlope(robust::information(withoutRays(inliers), result.pose), *rays, 1, bySlope)) return;
+  const Eigen::LLT<FullParameterMatrix> cholesky(extendedByIdentity(byInformation));
+  if (cholesky.info() != Eigen::Success) return;
+  const Eigen::Index size = information.rows();
+  const FullParameterMatrix larger = enlarged(cholesky.matrixL(), extendedByIdentity(bySlope));
+  result.covariance += larger.topLeftCorner(size, size) - byInformation;
+  result.isRegular = result.covariance.allFinite();
 }
 
 // The noise was found for independent errors, where the inliers' squared errors, n of them, are n less the number of parameters. Of

@@ -21,6 +21,7 @@ struct Optimum {
   Kinds kinds;  // that were used
   RayTreatment treatment;
   Noise noise;
+  double rayWeight = 1;  // of the rays' squared errors over their variance, at most 1: see RaySlope
 };
 
 // The refused rays of its treatment are no inliers, whatever their errors.
@@ -48,7 +49,7 @@ class LocalOptimizer {
   // The same to full precision, and with single rays kept from deciding alone (Levers.hpp, Leverage.hpp).
   Optimum polish(const QueryPose& start) const;
   // The same from a pose that was polished for a part of the correspondences.
-  Optimum polishNear(const QueryPose& start) const;
+  Optimum polishNear(const QueryPose& start, double rayWeight) const;
   // A pose as it is.
   Optimum keep(const QueryPose& pose) const;
   // With its covariance.
@@ -82,10 +83,14 @@ class LocalOptimizer {
   Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   // The narrowing must outlive the problem.
   static LeastSquaresProblem narrowed(LeastSquaresProblem problem, const correspondences::PaddedValues& narrowing);
-  LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds) const;
+  LeastSquaresProblem likelierInliers(const Noise& noise, const Kinds& kinds, double rayWeight) const;
+  // The narrowing is not in it.
+  LeastSquaresProblem inliersOf(const Optimum& optimum) const;
+  Optimum keep(const QueryPose& pose, double rayWeight) const;
   // With the noise at this pose.
-  Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment) const;
+  Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment, double rayWeight) const;
   void findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const;
+  void allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information, FinalPose& result) const;
   void correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const;
 
   struct Steps {
@@ -96,10 +101,11 @@ class LocalOptimizer {
   // Of errors that are truncated at these limits [px].
   QueryPose leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
                            const Steps& steps) const;
-  QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
+  QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps, double rayWeight = 1) const;
   // Whether it counts how deep in the scene a lever lies.
   enum class LeverTest { WithDepths, WithoutDepths };
-  Optimum withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test) const;
+  Optimum withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test, double rayWeight = 1) const;
+  Optimum withBalancedRays(const Optimum& optimum) const;
   Optimum likeliestBeside(const Optimum& first, const QueryPose& firstStart) const;
   QueryPose withFaintRays(const QueryPose& start, const Kinds& kinds) const;
   double logEvidenceOf(const Optimum& optimum) const;
@@ -109,6 +115,7 @@ class LocalOptimizer {
     Noise noise;
     Steps steps;
     LeverTest test;
+    double rayWeight;
   };
   // Refuses levers that the other correspondences do not predict; the pose becomes the one without levers. Whether there are any.
   bool refuse(const std::vector<std::size_t>& levers, const Round& round, QueryPose& pose, RayTreatment& treatment) const;

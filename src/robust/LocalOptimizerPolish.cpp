@@ -7,6 +7,7 @@
 #include "robust/DepthPrior.hpp"
 #include "robust/Leverage.hpp"
 #include "robust/LocalOptimizer.hpp"
+#include "robust/RaySlope.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -26,7 +27,18 @@ Optimum LocalOptimizer::polish(const QueryPose& start) const {
   const Kinds kinds = moreThanChance(start);
   const QueryPose likely = likeliest(start, kinds, 1, kCoarse);
   const Optimum optimum = withoutLevers(likely, kinds, LeverTest::WithDepths);
-  return optimum.treatment.refused().empty() ? optimum : likeliestBeside(optimum, likely);
+  return withBalancedRays(optimum.treatment.refused().empty() ? optimum : likeliestBeside(optimum, likely));
+}
+
+// Where the depths of rays are hardly known, they bring more noise than they tell, and count less beside points.
+Optimum LocalOptimizer::withBalancedRays(const Optimum& optimum) const {
+  if (!optimum.kinds.points) return optimum;
+  const PaddedValues narrowing = optimum.treatment.narrowing();
+  const LeastSquaresProblem inliers = narrowed(inliersOf(optimum), narrowing);
+  const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), optimum.pose, optimum.noise.rays.deviation);
+  if (!rays) return optimum;
+  const double weight = bestWeight(information(withoutRays(inliers), optimum.pose), *rays, estimated_);
+  return weight < 1 ? withoutLevers(optimum.pose, optimum.kinds, LeverTest::WithDepths, weight) : optimum;
 }
 
 // Where rays had to be refused, the likelihood has optima near each other, one for each part of such rays that is believed. So it is
@@ -59,7 +71,7 @@ QueryPose LocalOptimizer::withFaintRays(const QueryPose& start, const Kinds& kin
 }
 
 // The losses of the rays are narrowed, and some are refused; only the last round goes to full precision.
-Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test) const {
+Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test, double rayWeight) const {
   // A focal length that is not free gives the levers less to move. With unknown distortion this is done twice, with and without it.
   const int rounds = estimated_.focalLength && !lens_.isUnknown ? 3 : 2;
   RayTreatment treatment(scorer_.arrays().rays().size());
@@ -69,9 +81,9 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
     SquaredErrors errors = squaredErrors(pose, kinds);
     treatment.leaveOut(errors.rays);
     const Noise at = noise(errors, kBenefitOfDoubt);
-    const LeastSquaresProblem robust = problem(at.rays.loss(), at.points.loss(), kinds);
+    const LeastSquaresProblem robust = problem(at.rays.loss(rayWeight), at.points.loss(), kinds);
     Levers levers = leversOf(robust, pose, treatment);
-    if (refuse(levers.rays, {robust, at, steps, test}, pose, treatment)) {
+    if (refuse(levers.rays, {robust, at, steps, test, rayWeight}, pose, treatment)) {
       const PaddedValues before = treatment.narrowing();
       levers.leverages = rayLeverages(narrowed(robust, before), pose);
     }
@@ -79,7 +91,7 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
     const PaddedValues narrowing = treatment.narrowing();
     pose = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   }
-  return optimumAt(pose, kinds, treatment);
+  return optimumAt(pose, kinds, treatment, rayWeight);
 }
 
 // A lever must be predicted by the other correspondences. By the pose without it, its error has a variance v, in units of the noise's;
@@ -88,14 +100,14 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
 // because it is said to meet its viewing ray close to the cameras, where the scene as a rule is not.
 bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const Round& round, QueryPose& pose,
                             RayTreatment& treatment) const {
-  const auto& [robust, noise, steps, test] = round;
+  const auto& [robust, noise, steps, test, rayWeight] = round;
   if (levers.empty()) return false;
   RayTreatment without = treatment;
   without.refuse(levers);
   const PaddedValues narrowing = without.narrowing();
   const QueryPose others = minimize(narrowed(robust, narrowing), pose, limits(steps)).pose;
   ParameterMatrix covariance;
-  if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds), narrowing), others), covariance))
+  if (!invertInformation(information(narrowed(likelierInliers(noise, robust.kinds, rayWeight), narrowing), others), covariance))
     return false;
 
   LeastSquaresProblem inUnitsOfNoise = robust;
@@ -148,7 +160,7 @@ double LocalOptimizer::logLikelihoodOfDepths(const QueryPose& pose, const Square
 // parameters, but for a factor. Refused rays are outliers.
 double LocalOptimizer::logEvidenceOf(const Optimum& optimum) const {
   const PaddedValues narrowing = optimum.treatment.narrowing();
-  const LeastSquaresProblem inliers = narrowed(likelierInliers(optimum.noise, optimum.kinds), narrowing);
+  const LeastSquaresProblem inliers = narrowed(inliersOf(optimum), narrowing);
   const Eigen::LLT<FullParameterMatrix> cholesky(extendedByIdentity(information(inliers, optimum.pose)));
   if (cholesky.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
   const double halfLogDeterminant = FullParameterMatrix(cholesky.matrixL()).diagonal().array().log().sum();

@@ -24,6 +24,15 @@ FullParameterMatrix Eigendecomposition::withValues(const FullParameterVector& ot
   return vectors * others.asDiagonal() * vectors.transpose();
 }
 
+FullParameterMatrix enlarged(const FullParameterMatrix& L, const FullParameterMatrix& other, double allowance) {
+  const auto lower = L.triangularView<Eigen::Lower>();
+  const FullParameterMatrix half = lower.solve(other);
+  const FullParameterMatrix halfTransposed = half.transpose();
+  const Eigendecomposition white = eigendecomposition(lower.solve(halfTransposed));
+  const FullParameterVector factors = (white.values.array() - allowance).cwiseMax(1);
+  return L * white.withValues(factors) * L.transpose();
+}
+
 // The inverse of a matrix with ones in its diagonal; false if its smallest eigenvalue is too small.
 static bool invertScaled(const FullParameterMatrix& scaled, FullParameterMatrix& inverse) {
   constexpr double kSmallest = 1e-13, kSurelyLarger = 1e-10;

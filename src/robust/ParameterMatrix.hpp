@@ -42,6 +42,10 @@ struct Eigendecomposition {
 
 Eigendecomposition eigendecomposition(const FullParameterMatrix& matrix);
 
+// The least matrix that is at least L L^T and, but for the part `allowance` of L L^T, at least `other`, in the directions in which they differ:
+// where other = L M L^T, the eigenvalues of M less the allowance take the place of 1 if they are larger.
+FullParameterMatrix enlarged(const FullParameterMatrix& L, const FullParameterMatrix& other, double allowance = 0);
+
 // The inverse of an information matrix; false if the data do not fix all parameters (to working precision).
 bool invertInformation(const ParameterMatrix& information, ParameterMatrix& covariance);
 

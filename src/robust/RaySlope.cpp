@@ -1,0 +1,173 @@
+#include "robust/RaySlope.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "robust/ApparentDepth.hpp"
+#include "robust/ChosenArrays.hpp"
+#include "robust/InverseDepths.hpp"
+#include "robust/KernelRows.hpp"
+#include "robust/toPlain.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+// Map images are taken to be as noisy as the query, so that the place along the line has twice the variance of its error across.
+constexpr double kVariancesAlong = 2;
+
+template <class Losses>
+bool isInlier(double squaredError, const Losses& loss) {
+  return squaredError < loss.scale * loss.scale;
+}
+
+Members inlierRays(const LeastSquaresProblem& problem, const PlainPose& pose) {
+  const RayArrays& rays = problem.rays;
+  std::vector<double> errors(correspondences::padded(rays.size));
+  problem.kernels->squaredRayErrors(rays, pose, errors.data());
+  Members result;
+  for (std::size_t i = 0; i < rays.size; ++i)
+    if (isInlier(rays.narrowing ? *(rays.narrowing + i) * errors[i] : errors[i], problem.rayLoss)) result.push_back(i);
+  return result;
+}
+
+InverseDepths inverseDepthsOf(const Members& rays, const CorrespondenceArrays& arrays, const QueryPose& pose, double variance) {
+  InverseDepths depths;
+  for (const std::size_t i : rays) {
+    const ApparentDepth depth = apparentDepth(arrays.rays()[i], pose);
+    depths.values.push_back(depth.inverse);
+    depths.variances.push_back(variance * depth.perPixel * depth.perPixel);
+  }
+  return depths;
+}
+
+// Points are taken to be exact.
+void addInlierPoints(const LeastSquaresProblem& problem, const PlainPose& plain, const QueryPose& pose, InverseDepths& depths) {
+  const PointArrays& points = problem.points;
+  std::vector<double> errors(correspondences::padded(points.size));
+  problem.kernels->squaredPointErrors(points, plain, errors.data());
+  for (std::size_t i = 0; i < points.size; ++i) {
+    if (!isInlier(errors[i], problem.pointLoss)) continue;
+    const Eigen::Vector3d point(points.x[i], points.y[i], points.z[i]);
+    depths.values.push_back(1 / pose.rotation.col(2).dot(point - pose.position));
+    depths.variances.push_back(0);
+  }
+}
+
+// Without this much of what rays say being noise, nothing changes.
+bool areSharp(const InverseDepths& depths, std::size_t rays, const DepthDistribution& scene) {
+  constexpr double kLittle = 0.02;
+  double lost = 0;
+  for (std::size_t i = 0; i < rays; ++i) lost += 1 - scene.trust(depths.variances[i]);
+  return lost <= kLittle * static_cast<double>(rays);
+}
+
+// Places in the image of some rays.
+struct Places {
+  explicit Places(std::size_t size) : u(correspondences::padded(size)), v(correspondences::padded(size)) {}
+  void set(std::size_t i, const Eigen::Vector2d& place) {
+    u[i] = place.x();
+    v[i] = place.y();
+  }
+
+  std::vector<double> u, v;
+};
+
+// Where rays would be seen at their likely depths, and a step beside that along their epipolar lines. Where one is not seen there, it stays
+// where it is, and the step is 0.
+struct LikelyPlaces {
+  explicit LikelyPlaces(std::size_t size) : here(size), beside(size), steps(size, 0), trusts(size, 1) {}
+
+  Places here, beside;
+  std::vector<double> steps, trusts;
+};
+
+LikelyPlaces likelyPlaces(const CorrespondenceArrays& arrays, const Members& rays, const QueryPose& pose,
+                          const InverseDepths& depths, const DepthDistribution& scene) {
+  constexpr double kStep = 0.01;  // in standard deviations
+  LikelyPlaces places(rays.size());
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const correspondences::RayMatch& ray = arrays.rays()[rays[k]];
+    const double trust = scene.trust(depths.variances[k]), likely = scene.mean + trust * (depths.values[k] - scene.mean);
+    const std::optional<Eigen::Vector2d> here = movedToDepth(ray, pose, likely);
+    const std::optional<Eigen::Vector2d> beside = movedToDepth(ray, pose, likely + kStep * std::sqrt(depths.variances[k]));
+    const Eigen::Vector2d seen(ray.u, ray.v);
+    places.here.set(k, here && beside ? *here : seen);
+    places.beside.set(k, here && beside ? *beside : seen);
+    if (!here || !beside) continue;
+    places.steps[k] = (*beside - *here).norm();
+    places.trusts[k] = trust;
+  }
+  return places;
+}
+
+KernelRows rowsAt(const LeastSquaresProblem& problem, RayArrays rays, const Places& places, const PlainPose& pose) {
+  rays.u = places.u.data();
+  rays.v = places.v.data();
+  rays.narrowing = {};
+  KernelRows rows(rays.size, kRayRow);
+  problem.kernels->rayRows(rays, pose, {Loss::Quadratic, 1, 1}, rows.data());
+  return rows;
+}
+
+// `variance`: of the places along the lines.
+RaySlope sumsAt(const LikelyPlaces& places, const LeastSquaresProblem& problem, const RayArrays& rays, const PlainPose& pose,
+                double variance) {
+  const KernelRows here = rowsAt(problem, rays, places.here, pose), beside = rowsAt(problem, rays, places.beside, pose);
+  FullParameterMatrix slope = FullParameterMatrix::Zero(), noise = FullParameterMatrix::Zero();
+  for (std::size_t k = 0; k < rays.size; ++k) {
+    const FullParameterVector J = here.derivatives(k, kFirstDerivative);
+    if (!(here.weight(k) > 0) || !J.allFinite()) continue;
+    slope.noalias() += J * J.transpose();
+    const FullParameterVector change = (beside.derivatives(k, kFirstDerivative) - J) / places.steps[k];
+    if (!(beside.weight(k) > 0) || !change.allFinite()) continue;
+    const FullParameterMatrix ofNoise = variance * change * change.transpose();
+    slope += places.trusts[k] * ofNoise;
+    noise += ofNoise;
+  }
+  const double weight = problem.rayLoss.precision;
+  return {estimatedPart(weight * slope, problem.estimated), estimatedPart(weight * (slope + noise), problem.estimated)};
+}
+
+}  // namespace
+
+std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const CorrespondenceArrays& arrays, const QueryPose& pose,
+                                 double deviation) {
+  if (!inliers.kinds.rays) return std::nullopt;
+  const PlainPose plain = toPlain(pose);
+  const Members rays = inlierRays(inliers, plain);
+  if (rays.empty()) return std::nullopt;
+  const double variance = kVariancesAlong * deviation * deviation;
+  InverseDepths depths = inverseDepthsOf(rays, arrays, pose, variance);
+  if (inliers.kinds.points) addInlierPoints(inliers, plain, pose, depths);
+  const DepthDistribution scene = depthDistribution(depths);
+  if (areSharp(depths, rays.size(), scene)) return std::nullopt;
+  ChosenArrays chosen;
+  return sumsAt(likelyPlaces(arrays, rays, pose, depths, scene), inliers, chosen.rays(inliers.rays, rays), plain, variance);
+}
+
+bool covarianceBySlope(const ParameterMatrix& others, const RaySlope& rays, double weight, ParameterMatrix& covariance) {
+  ParameterMatrix inverse;
+  if (!invertInformation(others + weight * rays.slope, inverse)) return false;
+  covariance = inverse * (others + weight * weight * rays.scatter) * inverse;
+  return covariance.allFinite();
+}
+
+double bestWeight(const ParameterMatrix& others, const RaySlope& rays, Intrinsics estimated) {
+  constexpr double kLeast = 1e-3, kClearGain = 0.7;  // of the variance
+  if (!estimated.focalLength) return 1;
+  double best = 1, least = 0, ofOne = 0;
+  for (double weight = 1; weight > kLeast; weight /= 2) {
+    ParameterMatrix covariance;
+    if (!covarianceBySlope(others, rays, weight, covariance)) break;
+    const double variance = varianceOfLogFocalLength(covariance, estimated);
+    if (weight == 1) least = ofOne = variance;
+    if (!(variance < least)) continue;
+    least = variance;
+    best = weight;
+  }
+  return least < kClearGain * ofOne ? best : 1;
+}
+
+}  // namespace robust
+}  // namespace hybridgv
