@@ -13,6 +13,7 @@ namespace {
 constexpr double kDeviationsPerMedian = 1.4826;  // of normal values
 // A scene is not flatter than this, relative to its depth.
 constexpr double kLeastDeviation = 1e-3;
+constexpr double kDeviations = 3;
 
 double square(double x) { return x * x; }
 
@@ -27,7 +28,6 @@ DepthDistribution firstGuess(std::vector<double> values) {
 
 // One step of Fisher's scoring: the values' squared differences, less the variances of their errors, in the mean.
 DepthDistribution nextGuess(const InverseDepths& depths, const DepthDistribution& guess) {
-  constexpr double kDeviations = 3;
   double sum = 0, weights = 0, squares = 0, weightsOfSquares = 0;
   for (std::size_t i = 0; i < depths.values.size(); ++i) {
     const double total = guess.variance + depths.variances[i], squaredDifference = square(depths.values[i] - guess.mean);
@@ -43,6 +43,15 @@ DepthDistribution nextGuess(const InverseDepths& depths, const DepthDistribution
 }
 
 }  // namespace
+
+bool DepthDistribution::isOneOfFew(double value, double varianceOfError) const {
+  return square(value - mean) > square(kDeviations) * (variance + varianceOfError);
+}
+
+double DepthDistribution::trust(double value, double varianceOfError) const {
+  if (isOneOfFew(value, varianceOfError)) return 1 - varianceOfError / square(value - mean);
+  return variance / (variance + varianceOfError);
+}
 
 DepthDistribution depthDistribution(const InverseDepths& depths) {
   constexpr int kRounds = 10;

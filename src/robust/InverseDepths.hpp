@@ -11,15 +11,17 @@ struct InverseDepths {
   std::vector<double> values, variances;
 };
 
-// The inverse depths of a scene are normal but for a few.
+// The inverse depths of a scene are normal but for a few, those beyond three standard deviations.
 struct DepthDistribution {
-  double mean = 0, variance = 0;
+  bool isOneOfFew(double value, double varianceOfError) const;
+  // How much of the difference between a measured value and the mean is the scene's, on average: from 0 to 1. Where the value is one of
+  // the few, its difference is what there is to tell how large theirs are.
+  double trust(double value, double varianceOfError) const;
 
-  // How much of the difference between a measured value and the mean is the scene's, on average: from 0 to 1.
-  double trust(double varianceOfError) const { return variance / (variance + varianceOfError); }
+  double mean = 0, variance = 0;
 };
 
-// The most likely one. Values beyond three standard deviations do not count. Not for no values.
+// The most likely one. Not for no values.
 DepthDistribution depthDistribution(const InverseDepths& depths);
 
 }  // namespace robust

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "correspondences/PaddedValues.hpp"
-#include "robust/RaySlope.hpp"
 #include "robust/medians.hpp"
 
 namespace hybridgv {
@@ -348,10 +347,16 @@ void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPos
   allowForDepths(inliers, at.information, result);
 }
 
+RayNoise LocalOptimizer::rayNoise(const Optimum& optimum) const {
+  const ErrorMixture& rays = optimum.noise.rays;
+  const double outliers = rays.outlierShare * static_cast<double>(scorer_.arrays().rays().size());
+  return {rays.deviation, outliers * chance_.rayShare(rays.boundary / scorer_.bounds().rays)};
+}
+
 // The covariance is for derivatives that are known. What it lacks where those of the rays are not is added.
 void LocalOptimizer::allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information,
                                     FinalPose& result) const {
-  const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), result.pose, result.noise.rays.deviation);
+  const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), result.pose, rayNoise(result));
   ParameterMatrix byInformation, bySlope;
   if (!rays || !invertInformation(information, byInformation)) return;
   // The weight is in the problem.

@@ -8,6 +8,7 @@
 #include "robust/Lens.hpp"
 #include "robust/Levers.hpp"
 #include "robust/PoseScorer.hpp"
+#include "robust/RaySlope.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -90,6 +91,7 @@ class LocalOptimizer {
   // With the noise at this pose.
   Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment, double rayWeight) const;
   void findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const;
+  RayNoise rayNoise(const Optimum& optimum) const;
   void allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information, FinalPose& result) const;
   void correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const;
 

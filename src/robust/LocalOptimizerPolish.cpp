@@ -7,7 +7,6 @@
 #include "robust/DepthPrior.hpp"
 #include "robust/Leverage.hpp"
 #include "robust/LocalOptimizer.hpp"
-#include "robust/RaySlope.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -35,7 +34,7 @@ Optimum LocalOptimizer::withBalancedRays(const Optimum& optimum) const {
   if (!optimum.kinds.points) return optimum;
   const PaddedValues narrowing = optimum.treatment.narrowing();
   const LeastSquaresProblem inliers = narrowed(inliersOf(optimum), narrowing);
-  const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), optimum.pose, optimum.noise.rays.deviation);
+  const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), optimum.pose, rayNoise(optimum));
   if (!rays) return optimum;
   const double weight = bestWeight(information(withoutRays(inliers), optimum.pose), *rays, estimated_);
   return weight < 1 ? withoutLevers(optimum.pose, optimum.kinds, LeverTest::WithDepths, weight) : optimum;

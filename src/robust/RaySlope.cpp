@@ -1,6 +1,8 @@
 #include "robust/RaySlope.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "robust/ApparentDepth.hpp"
@@ -54,12 +56,23 @@ void addInlierPoints(const LeastSquaresProblem& problem, const PlainPose& plain,
   }
 }
 
+// The trust in the rays' depths. A wrong ray that is an inlier by chance lies anywhere. So those that are not where the scene is are right
+// only as far as there are more of them than that; twice the number, because it scatters.
+std::vector<double> trustsIn(const InverseDepths& depths, std::size_t rays, const DepthDistribution& scene, double byChance) {
+  std::vector<double> trusts(rays);
+  int few = 0;
+  for (std::size_t i = 0; i < rays; ++i) few += scene.isOneOfFew(depths.values[i], depths.variances[i]);
+  const double right = std::max(1 - 2 * byChance / std::max(few, 1), 0.);
+  for (std::size_t i = 0; i < rays; ++i)
+    trusts[i] = scene.trust(depths.values[i], depths.variances[i]) *
+                (scene.isOneOfFew(depths.values[i], depths.variances[i]) ? right : 1);
+  return trusts;
+}
+
 // Without this much of what rays say being noise, nothing changes.
-bool areSharp(const InverseDepths& depths, std::size_t rays, const DepthDistribution& scene) {
+bool areSharp(const std::vector<double>& trusts) {
   constexpr double kLittle = 0.02;
-  double lost = 0;
-  for (std::size_t i = 0; i < rays; ++i) lost += 1 - scene.trust(depths.variances[i]);
-  return lost <= kLittle * static_cast<double>(rays);
+  return std::accumulate(trusts.begin(), trusts.end(), 0.) >= (1 - kLittle) * static_cast<double>(trusts.size());
 }
 
 // Places in the image of some rays.
@@ -76,27 +89,25 @@ struct Places {
 // Where rays would be seen at their likely depths, and a step beside that along their epipolar lines. Where one is not seen there, it stays
 // where it is, and the step is 0.
 struct LikelyPlaces {
-  explicit LikelyPlaces(std::size_t size) : here(size), beside(size), steps(size, 0), trusts(size, 1) {}
+  explicit LikelyPlaces(std::size_t size) : here(size), beside(size), steps(size, 0) {}
 
   Places here, beside;
-  std::vector<double> steps, trusts;
+  std::vector<double> steps;
 };
 
 LikelyPlaces likelyPlaces(const CorrespondenceArrays& arrays, const Members& rays, const QueryPose& pose,
-                          const InverseDepths& depths, const DepthDistribution& scene) {
+                          const InverseDepths& depths, double mean, const std::vector<double>& trusts) {
   constexpr double kStep = 0.01;  // in standard deviations
   LikelyPlaces places(rays.size());
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const correspondences::RayMatch& ray = arrays.rays()[rays[k]];
-    const double trust = scene.trust(depths.variances[k]), likely = scene.mean + trust * (depths.values[k] - scene.mean);
+    const double likely = mean + trusts[k] * (depths.values[k] - mean);
     const std::optional<Eigen::Vector2d> here = movedToDepth(ray, pose, likely);
     const std::optional<Eigen::Vector2d> beside = movedToDepth(ray, pose, likely + kStep * std::sqrt(depths.variances[k]));
     const Eigen::Vector2d seen(ray.u, ray.v);
     places.here.set(k, here && beside ? *here : seen);
     places.beside.set(k, here && beside ? *beside : seen);
-    if (!here || !beside) continue;
-    places.steps[k] = (*beside - *here).norm();
-    places.trusts[k] = trust;
+    places.steps[k] = here && beside ? (*beside - *here).norm() : 0;
   }
   return places;
 }
@@ -112,7 +123,7 @@ KernelRows rowsAt(const LeastSquaresProblem& problem, RayArrays rays, const Plac
 
 // `variance`: of the places along the lines.
 RaySlope sumsAt(const LikelyPlaces& places, const LeastSquaresProblem& problem, const RayArrays& rays, const PlainPose& pose,
-                double variance) {
+                const std::vector<double>& trusts, double variance) {
   const KernelRows here = rowsAt(problem, rays, places.here, pose), beside = rowsAt(problem, rays, places.beside, pose);
   FullParameterMatrix slope = FullParameterMatrix::Zero(), noise = FullParameterMatrix::Zero();
   for (std::size_t k = 0; k < rays.size; ++k) {
@@ -122,7 +133,7 @@ RaySlope sumsAt(const LikelyPlaces& places, const LeastSquaresProblem& problem, 
     const FullParameterVector change = (beside.derivatives(k, kFirstDerivative) - J) / places.steps[k];
     if (!(beside.weight(k) > 0) || !change.allFinite()) continue;
     const FullParameterMatrix ofNoise = variance * change * change.transpose();
-    slope += places.trusts[k] * ofNoise;
+    slope += trusts[k] * ofNoise;
     noise += ofNoise;
   }
   const double weight = problem.rayLoss.precision;
@@ -132,18 +143,20 @@ RaySlope sumsAt(const LikelyPlaces& places, const LeastSquaresProblem& problem, 
 }  // namespace
 
 std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const CorrespondenceArrays& arrays, const QueryPose& pose,
-                                 double deviation) {
+                                 const RayNoise& noise) {
   if (!inliers.kinds.rays) return std::nullopt;
   const PlainPose plain = toPlain(pose);
   const Members rays = inlierRays(inliers, plain);
   if (rays.empty()) return std::nullopt;
-  const double variance = kVariancesAlong * deviation * deviation;
+  const double variance = kVariancesAlong * noise.deviation * noise.deviation;
   InverseDepths depths = inverseDepthsOf(rays, arrays, pose, variance);
   if (inliers.kinds.points) addInlierPoints(inliers, plain, pose, depths);
   const DepthDistribution scene = depthDistribution(depths);
-  if (areSharp(depths, rays.size(), scene)) return std::nullopt;
+  const std::vector<double> trusts = trustsIn(depths, rays.size(), scene, noise.byChance);
+  if (areSharp(trusts)) return std::nullopt;
+  const LikelyPlaces places = likelyPlaces(arrays, rays, pose, depths, scene.mean, trusts);
   ChosenArrays chosen;
-  return sumsAt(likelyPlaces(arrays, rays, pose, depths, scene), inliers, chosen.rays(inliers.rays, rays), plain, variance);
+  return sumsAt(places, inliers, chosen.rays(inliers.rays, rays), plain, trusts, variance);
 }
 
 bool covarianceBySlope(const ParameterMatrix& others, const RaySlope& rays, double weight, ParameterMatrix& covariance) {

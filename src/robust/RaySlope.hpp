@@ -24,10 +24,16 @@ struct RaySlope {
   ParameterMatrix slope, scatter;
 };
 
-// Of the inliers: `inliers` is a problem with truncated losses. `deviation` [px]: of the rays' errors. None if it makes no difference:
-// if there are no rays, or if their depths are known much better than they differ. `arrays`: those of the problem.
+// What is known of the rays of a problem.
+struct RayNoise {
+  double deviation;  // [px] of the errors of inliers
+  double byChance;   // so many wrong ones are inliers by chance
+};
+
+// Of the inliers: `inliers` is a problem with truncated losses. None if it makes no difference: if there are no rays, or if their depths are
+// known much better than they differ. `arrays`: those of the problem.
 std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const CorrespondenceArrays& arrays, const QueryPose& pose,
-                                 double deviation);
+                                 const RayNoise& noise);
 
 // With correspondences of which the information is `others`, A^-1 B A^-1; false if A has no inverse. The squared errors of the rays count
 // `weight` times as much as in the problem.
