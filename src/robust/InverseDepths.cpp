@@ -17,15 +17,6 @@ constexpr double kDeviations = 3;
 
 double square(double x) { return x * x; }
 
-// With the errors in it.
-DepthDistribution firstGuess(std::vector<double> values) {
-  DepthDistribution result;
-  result.mean = median(values);
-  for (double& value : values) value = std::abs(value - result.mean);
-  result.variance = square(kDeviationsPerMedian * median(values));
-  return result;
-}
-
 // One step of Fisher's scoring: the values' squared differences, less the variances of their errors, in the mean.
 DepthDistribution nextGuess(const InverseDepths& depths, const DepthDistribution& guess) {
   double sum = 0, weights = 0, squares = 0, weightsOfSquares = 0;
@@ -53,10 +44,19 @@ double DepthDistribution::trust(double value, double varianceOfError) const {
   return variance / (variance + varianceOfError);
 }
 
+DepthDistribution roughDepthDistribution(const InverseDepths& depths) {
+  std::vector<double> values = depths.values;
+  DepthDistribution result;
+  result.mean = median(values);
+  for (double& value : values) value = std::abs(value - result.mean);
+  result.variance = square(kDeviationsPerMedian * median(values));
+  return result;
+}
+
 DepthDistribution depthDistribution(const InverseDepths& depths) {
   constexpr int kRounds = 10;
   constexpr double kSame = 0.01;
-  DepthDistribution result = firstGuess(depths.values);
+  DepthDistribution result = roughDepthDistribution(depths);
   for (int round = 0; round < kRounds; ++round) {
     const double before = result.variance;
     result = nextGuess(depths, result);

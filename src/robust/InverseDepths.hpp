@@ -21,6 +21,8 @@ struct DepthDistribution {
   double mean = 0, variance = 0;
 };
 
+// By medians; the errors are in it. Not for no values.
+DepthDistribution roughDepthDistribution(const InverseDepths& depths);
 // The most likely one. Not for no values.
 DepthDistribution depthDistribution(const InverseDepths& depths);
 

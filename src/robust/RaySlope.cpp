@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "robust/ApparentDepth.hpp"
@@ -35,6 +34,8 @@ Members inlierRays(const LeastSquaresProblem& problem, const PlainPose& pose) {
 
 InverseDepths inverseDepthsOf(const Members& rays, const CorrespondenceArrays& arrays, const QueryPose& pose, double variance) {
   InverseDepths depths;
+  depths.values.reserve(rays.size() + arrays.points().size());
+  depths.variances.reserve(rays.size() + arrays.points().size());
   for (const std::size_t i : rays) {
     const ApparentDepth depth = apparentDepth(arrays.rays()[i], pose);
     depths.values.push_back(depth.inverse);
@@ -69,10 +70,13 @@ std::vector<double> trustsIn(const InverseDepths& depths, std::size_t rays, cons
   return trusts;
 }
 
-// Without this much of what rays say being noise, nothing changes.
-bool areSharp(const std::vector<double>& trusts) {
+// Whether so little of what rays say is noise that nothing changes.
+bool areSharp(const InverseDepths& depths, std::size_t rays) {
   constexpr double kLittle = 0.02;
-  return std::accumulate(trusts.begin(), trusts.end(), 0.) >= (1 - kLittle) * static_cast<double>(trusts.size());
+  const double variance = roughDepthDistribution(depths).variance;
+  double noise = 0;
+  for (std::size_t i = 0; i < rays; ++i) noise += depths.variances[i] / (depths.variances[i] + variance);
+  return noise <= kLittle * static_cast<double>(rays);
 }
 
 // Places in the image of some rays.
@@ -151,9 +155,9 @@ std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const Corre
   const double variance = kVariancesAlong * noise.deviation * noise.deviation;
   InverseDepths depths = inverseDepthsOf(rays, arrays, pose, variance);
   if (inliers.kinds.points) addInlierPoints(inliers, plain, pose, depths);
+  if (areSharp(depths, rays.size())) return std::nullopt;
   const DepthDistribution scene = depthDistribution(depths);
   const std::vector<double> trusts = trustsIn(depths, rays.size(), scene, noise.byChance);
-  if (areSharp(trusts)) return std::nullopt;
   const LikelyPlaces places = likelyPlaces(arrays, rays, pose, depths, scene.mean, trusts);
   ChosenArrays chosen;
   return sumsAt(places, inliers, chosen.rays(inliers.rays, rays), plain, trusts, variance);
