@@ -1,10 +1,10 @@
 #include "robust/DepthPrior.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "robust/ApparentDepth.hpp"
 #include "robust/medians.hpp"
 
 namespace hybridgv {
@@ -55,15 +55,11 @@ double DepthPrior::plausibility(std::size_t ray) const {
   return std::min(1., std::exp(difference)) / (q * q);
 }
 
-// A point is at its depth only to the accuracy of its disparity: no ray is farther than where that is two standard deviations.
-double DepthPrior::logDepth(std::size_t i) const {
+// No ray is farther than where its disparity is two standard deviations.
+double DepthPrior::logDepth(std::size_t ray) const {
   constexpr double kDeviations = 2;
-  const correspondences::RayMatch& ray = arrays_.rays()[i];
-  const double f = pose_.focalLength * (1 + pose_.distortion * (ray.u * ray.u + ray.v * ray.v));
-  const Eigen::Vector3d w = pose_.rotation * Eigen::Vector3d(ray.u, ray.v, f), t = ray.centre - pose_.position;
-  const Eigen::Vector3d s = w.cross(ray.direction), l = t.cross(ray.direction);
-  const double depth = f * l.dot(s) / s.squaredNorm(), most = t.cross(w).norm() / (kDeviations * deviation_);
-  return logOf(depth > 0 && depth < most ? depth : most);
+  const ApparentDepth depth = apparentDepth(arrays_.rays()[ray], pose_);
+  return logOf(1 / std::max(kDeviations * deviation_ * depth.perPixel, depth.inverse));
 }
 
 }  // namespace robust

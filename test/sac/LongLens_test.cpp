@@ -7,6 +7,7 @@
 
 #include "HybridScene.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
+#include "statistics.hpp"
 
 namespace hybridgv {
 namespace test {
@@ -33,39 +34,48 @@ void permute(Random& random, double share, std::vector<Eigen::Vector3d>& image) 
                 image.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-HybridScene makeRow(Random& random, double wrongShare) {
-  constexpr int kRays = 50, kPoints = 10, kCameras = 12;
+// In units of the depth: how far the rig cameras are along the axis and beside it, and where the scene is.
+struct Layout {
+  double along = 0.06, sideways = 0.006;
+  double near = 0.8, far = 1.5;
+  int rays = 50, points = 10, cameras = 12;
+  double pointNoise = 0.003;  // along the axis, triangulated from short baselines
+  int foreground = 0;         // right rays to an eighth of the depth
+};
+
+HybridScene makeScene(Random& random, double wrongShare, const Layout& layout) {
   HybridScene scene;
   scene.truth = cameraNear(random, 0, 0);
   std::vector<FocalPose> rig;
-  for (int k = 0; k < kCameras; ++k) {
-    rig.push_back(cameraNear(random, 0.06 * kDepth, 0.006 * kDepth));
+  for (int k = 0; k < layout.cameras; ++k) {
+    rig.push_back(cameraNear(random, layout.along * kDepth, layout.sideways * kDepth));
     scene.offsets.push_back(rig.back().position);
     scene.rotations.push_back(rig.back().rotation);
   }
-  const auto scenePoint = [&] {
-    const double z = random.uniform(0.8 * kDepth, 1.5 * kDepth), width = 0.1 * z;
+  const auto scenePoint = [&](double near, double far) {
+    const double z = random.uniform(near * kDepth, far * kDepth), width = 0.1 * z;
     const double x = random.uniform(-width, width), y = random.uniform(-width, width);
     return Eigen::Vector3d(x, y, z);
   };
-  for (int i = 0; i < kRays; ++i) {
-    const FocalPose& camera = rig[static_cast<std::size_t>(i % kCameras)];
-    const Eigen::Vector3d point = scenePoint();
+  const auto addRay = [&](int k, const Eigen::Vector3d& point) {
     scene.image2d2d.push_back(noisyImagePoint(random, project(scene.truth, point), 1));
-    const Eigen::Vector3d inMap = noisyImagePoint(random, project(camera, point), 1);
+    const Eigen::Vector3d inMap = noisyImagePoint(random, project(rig[static_cast<std::size_t>(k)], point), 1);
     scene.bearings.push_back(Eigen::Vector3d(inMap[0], inMap[1], kFocalLength).normalized());
-    scene.cameras.push_back(i % kCameras);
-  }
-  for (int i = 0; i < kPoints; ++i) {
-    const Eigen::Vector3d point = scenePoint();
-    scene.points.push_back(point +
-                           0.003 * point[2] * Eigen::Vector3d::UnitZ() * random.normal());  // triangulated from short baselines
+    scene.cameras.push_back(k);
+  };
+  for (int i = 0; i < layout.rays; ++i) addRay(i % layout.cameras, scenePoint(layout.near, layout.far));
+  for (int i = 0; i < layout.points; ++i) {
+    const Eigen::Vector3d point = scenePoint(layout.near, layout.far);
+    scene.points.push_back(point + layout.pointNoise * point[2] * Eigen::Vector3d::UnitZ() * random.normal());
     scene.image2d3d.push_back(noisyImagePoint(random, project(scene.truth, point), 1));
   }
   permute(random, wrongShare, scene.image2d2d);
   permute(random, wrongShare, scene.image2d3d);
+  for (int i = 0; i < layout.foreground; ++i) addRay(i % layout.cameras, scenePoint(0.12, 0.13));
   return scene;
 }
+
+HybridScene makeRow(Random& random, double wrongShare) { return makeScene(random, wrongShare, {}); }
 
 sac::HybridRansacResult localize(const HybridScene& scene, std::uint64_t seed) {
   NoncentralHybridAdapter adapter = scene.adapter();
@@ -108,6 +118,67 @@ TEST_P(LongLens, TheSeedChangesTheResultByLessThanTheStatedDeviation) {
     far += most - least > 2 * deviation;
   }
   EXPECT_LE(far, 1);
+}
+
+// What is at about one depth tells of the focal length only by its relief, which the noise of short baselines hides. `rays`: to a facade.
+Layout facade(int rays) {
+  Layout layout;
+  layout.along = 0.02;
+  layout.near = 0.98;
+  layout.far = 1.02;
+  layout.rays = rays;
+  layout.points = 40;
+  layout.cameras = 6;
+  layout.pointNoise = 0;
+  return layout;
+}
+
+struct Errors {
+  Errors(const Layout& layout, double wrongShare, int scenes, int stream) {
+    Random random(testSeed() + static_cast<std::uint64_t>(stream));
+    for (int i = 0; i < scenes; ++i) {
+      const sac::HybridRansacResult result = localize(makeScene(random, wrongShare, layout), static_cast<std::uint64_t>(i));
+      if (!result.success) continue;
+      relative.push_back(std::abs(result.pose.focalLength / kFocalLength - 1));
+      inDeviations.push_back(std::abs(result.pose.focalLength - kFocalLength) / result.focalLengthStandardDeviation);
+    }
+  }
+  std::ptrdiff_t beyond(double deviations) const {
+    return std::count_if(inDeviations.begin(), inDeviations.end(), [=](double e) { return e > deviations; });
+  }
+
+  std::vector<double> relative, inDeviations;
+};
+
+// Of 300: without the noise of depths in it, 60 to 190 beyond three deviations and 20 to 100 beyond five.
+TEST_P(LongLens, TheDeviationIsHonestBeforeAFacade) {
+  constexpr int kScenes = 300;
+  for (const int rays : {10, 60, 200}) {
+    const Errors errors(facade(rays), GetParam(), kScenes, 9402);
+    EXPECT_GE(errors.relative.size(), kScenes * 9 / 10) << rays;
+    EXPECT_LE(errors.beyond(3), kScenes * 3 / 100) << rays;
+    EXPECT_LE(errors.beyond(5), kScenes / 100) << rays;
+    EXPECT_GT(median(errors.inDeviations), 0.25) << rays;
+    EXPECT_LT(median(errors.inDeviations), 0.9) << rays;
+  }
+}
+
+// With full weight, 200 rays made it 1.7 times as large.
+TEST(LongLensBeforeAFacade, RaysDoNotMakeTheErrorLarger) {
+  const Errors withRays(facade(200), 0, 300, 9403), withoutRays(facade(0), 0, 300, 9403);
+  EXPECT_LT(median(withRays.relative), 1.2 * median(withoutRays.relative));
+}
+
+TEST_P(LongLens, TheDeviationIsHonestWithThingsInTheForeground) {
+  constexpr int kScenes = 300;
+  Layout layout = facade(60);
+  for (const int foreground : {6, 20}) {
+    layout.foreground = foreground;
+    const Errors errors(layout, GetParam(), kScenes, 9404);
+    EXPECT_GE(errors.relative.size(), kScenes * 9 / 10) << foreground;
+    EXPECT_LE(errors.beyond(3), kScenes * 3 / 100) << foreground;
+    EXPECT_LE(errors.beyond(5), kScenes * 3 / 200) << foreground;
+  }
 }
 
 std::string nameOf(const testing::TestParamInfo<double>& info) {
