@@ -170,14 +170,18 @@ bool covarianceBySlope(const ParameterMatrix& others, const RaySlope& rays, doub
   return covariance.allFinite();
 }
 
+// Of the focal length; if it is known, of the position.
+static double varianceToReduce(const ParameterMatrix& covariance, Intrinsics estimated) {
+  return estimated.focalLength ? varianceOfLogFocalLength(covariance, estimated) : covariance.diagonal().segment<3>(3).sum();
+}
+
 double bestWeight(const ParameterMatrix& others, const RaySlope& rays, Intrinsics estimated) {
-  constexpr double kLeast = 1e-3, kClearGain = 0.7;  // of the variance
-  if (!estimated.focalLength) return 1;
+  constexpr double kLeast = 1e-3, kClearGain = 0.7;
   double best = 1, least = 0, ofOne = 0;
   for (double weight = 1; weight > kLeast; weight /= 2) {
     ParameterMatrix covariance;
     if (!covarianceBySlope(others, rays, weight, covariance)) break;
-    const double variance = varianceOfLogFocalLength(covariance, estimated);
+    const double variance = varianceToReduce(covariance, estimated);
     if (weight == 1) least = ofOne = variance;
     if (!(variance < least)) continue;
     least = variance;

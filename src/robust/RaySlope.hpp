@@ -39,7 +39,8 @@ std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const Corre
 // `weight` times as much as in the problem.
 bool covarianceBySlope(const ParameterMatrix& others, const RaySlope& rays, double weight, ParameterMatrix& covariance);
 
-// The weight, at most 1, for which the deviation of the focal length is least; 1 if another one is no clear gain.
+// The weight, at most 1, for which the deviation of the focal length is least, or of the position if the focal length is known; 1 if another
+// one is no clear gain.
 double bestWeight(const ParameterMatrix& others, const RaySlope& rays, Intrinsics estimated);
 
 }  // namespace robust
