@@ -81,8 +81,12 @@ PerKind<double> fittedDeviations(const SquaredErrors& inliers, int parameters) {
   return {deviation(sums.rays, equations.rays), deviation(sums.points, equations.points)};
 }
 
-KindLoss truncatedLoss(double truncation, double deviation) { return {Loss::Truncated, truncation, 1 / (deviation * deviation)}; }
-KindLoss truncatedLoss(double truncation) { return truncatedLoss(truncation, truncation); }
+KindLoss truncatedLoss(double truncation) { return {Loss::Truncated, truncation, 1 / (truncation * truncation)}; }
+
+// Of those that are more likely inliers. Rays may be beyond infinity.
+KindLoss likelierInlier(const ErrorMixture& kind, double weight) {
+  return {Loss::Truncated, kind.boundary, weight / (kind.deviation * kind.deviation), 1, true};
+}
 
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
 // least in those of rays, which give way across one line. So neither kind counts as better than the other, and rays as somewhat
@@ -220,7 +224,7 @@ Kinds LocalOptimizer::moreThanChance(const QueryPose& pose) const {
 
 SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& kinds) const {
   SquaredErrors result;
-  if (kinds.rays) result.rays = scorer_.squaredRayErrors(pose);
+  if (kinds.rays) result.rays = scorer_.squaredRayErrorsBeyondInfinity(pose);
   if (kinds.points) result.points = scorer_.squaredPointErrors(pose);
   return result;
 }
@@ -271,8 +275,7 @@ LeastSquaresProblem LocalOptimizer::narrowed(LeastSquaresProblem problem, const 
 }
 
 LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Kinds& kinds, double rayWeight) const {
-  return problem(truncatedLoss(noise.rays.boundary, noise.rays.deviation / std::sqrt(rayWeight)),
-                 truncatedLoss(noise.points.boundary, noise.points.deviation), kinds);
+  return problem(likelierInlier(noise.rays, rayWeight), likelierInlier(noise.points, 1), kinds);
 }
 
 LeastSquaresProblem LocalOptimizer::inliersOf(const Optimum& optimum) const {

@@ -11,6 +11,16 @@ namespace {
 
 constexpr std::size_t kChunk = 64;
 
+// Of one kind, by one of the kernels for that.
+template <class Arrays, class Errors>
+std::vector<double> errorsOf(const Arrays& arrays, const QueryPose& pose, Errors squaredErrors) {
+  std::vector<double> errors(arrays.size + correspondences::kPadding);
+  const PlainPose plain = toPlain(pose);
+  (kernelsFor(plain).*squaredErrors)(arrays, plain, errors.data());
+  errors.resize(arrays.size);
+  return errors;
+}
+
 // Wald's sequential probability ratio test of the inlier share of each kind, and the bound of the score.
 class SequentialTest {
  public:
@@ -157,19 +167,15 @@ Evaluation PoseScorer::evaluateAtClearestLevels(const QueryPose& pose, const Sha
 }
 
 std::vector<double> PoseScorer::squaredRayErrors(const QueryPose& pose) const {
-  std::vector<double> errors(rays_.size + correspondences::kPadding);
-  const PlainPose plain = toPlain(pose);
-  kernelsFor(plain).squaredRayErrors(rays_, plain, errors.data());
-  errors.resize(rays_.size);
-  return errors;
+  return errorsOf(rays_, pose, &Kernels::squaredRayErrors);
+}
+
+std::vector<double> PoseScorer::squaredRayErrorsBeyondInfinity(const QueryPose& pose) const {
+  return errorsOf(rays_, pose, &Kernels::squaredRayErrorsBeyondInfinity);
 }
 
 std::vector<double> PoseScorer::squaredPointErrors(const QueryPose& pose) const {
-  std::vector<double> errors(points_.size + correspondences::kPadding);
-  const PlainPose plain = toPlain(pose);
-  kernelsFor(plain).squaredPointErrors(points_, plain, errors.data());
-  errors.resize(points_.size);
-  return errors;
+  return errorsOf(points_, pose, &Kernels::squaredPointErrors);
 }
 
 PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose) const {

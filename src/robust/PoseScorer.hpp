@@ -73,6 +73,8 @@ class PoseScorer {
   // Errors of one kind at a pose, infinite for those that are no inliers.
   std::vector<double> squaredRayErrors(const QueryPose& pose) const;
   std::vector<double> squaredPointErrors(const QueryPose& pose) const;
+  // Those of rays, finite also beyond infinity (BeyondInfinity).
+  std::vector<double> squaredRayErrorsBeyondInfinity(const QueryPose& pose) const;
 
   const CorrespondenceArrays& arrays() const { return arrays_; }
   // The thresholds of inliers, at first their bounds.

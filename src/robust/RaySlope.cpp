@@ -25,7 +25,7 @@ bool isInlier(double squaredError, const Losses& loss) {
 Members inlierRays(const LeastSquaresProblem& problem, const PlainPose& pose) {
   const RayArrays& rays = problem.rays;
   std::vector<double> errors(correspondences::padded(rays.size));
-  problem.kernels->squaredRayErrors(rays, pose, errors.data());
+  problem.kernels->squaredRayErrorsBeyondInfinity(rays, pose, errors.data());
   Members result;
   for (std::size_t i = 0; i < rays.size; ++i)
     if (isInlier(rays.narrowing ? *(rays.narrowing + i) * errors[i] : errors[i], problem.rayLoss)) result.push_back(i);

@@ -41,6 +41,8 @@ struct KindLoss {
   double scale = 1;      // [px]
   double precision = 1;  // [1/px^2]
   double odds = 1;       // of Loss::Mixture, at most 1e9
+  // Whether a ray may meet its viewing ray beyond infinity, behind both cameras: see BeyondInfinity. Not for Loss::Quadratic.
+  bool reachesBeyondInfinity = false;
 };
 
 // The parameters by which the kernels derive are a small rotation in the query's frame (R -> R exp([.]x)), the position, log f,
@@ -67,6 +69,8 @@ struct Kernels {
   // Squared errors; infinite as reprojectionError and sampsonError are. `errors` has room for the padding.
   void (*squaredPointErrors)(const PointArrays&, const PlainPose&, double* errors);
   void (*squaredRayErrors)(const RayArrays&, const PlainPose&, double* errors);
+  // The same, finite also beyond infinity (BeyondInfinity).
+  void (*squaredRayErrorsBeyondInfinity)(const RayArrays&, const PlainPose&, double* errors);
   Score (*scorePoints)(const PointArrays&, const PlainPose&, double squaredThreshold, std::size_t begin, std::size_t end);
   Score (*scoreRays)(const RayArrays&, const PlainPose&, double squaredThreshold, std::size_t begin, std::size_t end);
   // Add to the sums. A point that is not in front of the query costs rho(infinity), as does a ray but for Loss::Quadratic.

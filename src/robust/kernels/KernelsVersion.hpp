@@ -17,6 +17,7 @@ template <class Camera>
 constexpr Kernels makeKernels() {
   return {&squaredPointErrors<Camera>,
           &squaredRayErrors<Camera>,
+          &squaredRayErrorsBeyondInfinity<Camera>,
           &scorePoints<Camera>,
           &scoreRays<Camera>,
           &addPoints<Camera>,

@@ -1,7 +1,7 @@
 // The normal equations of 2D-2D correspondences, for any camera model (Pinhole.hpp).
 #pragma once
 
-#include "robust/kernels/Epipolar.hpp"
+#include "robust/kernels/BeyondInfinity.hpp"
 #include "robust/kernels/Losses.hpp"
 #include "robust/kernels/NormalEquationsSum.hpp"
 #include "robust/kernels/Ranges.hpp"
@@ -28,16 +28,79 @@ HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& pla
   });
 }
 
+// The normal equations of all rays.
+template <class Camera>
+class RaySums {
+ public:
+  RaySums(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss)
+      : rays_(rays),
+        pose_(plainPose),
+        unknownPixel_(broadcast<Doubles>(squaredPixelOfUnknown(plainPose))),
+        loss_(loss),
+        cost_(loss) {}
+
+  // From the i-th on, kWidth of them.
+  HYBRIDGV_INLINE void add(std::size_t i, DoubleMask inRange) {
+    const Ray ray(rays_, i, pose_, unknownPixel_);
+    const Doubles squaredError = ray.squaredError();
+    const DoubleMask valid = isValid(ray, squaredError, loss_);
+    if (loss_.reachesBeyondInfinity && any(mayBeBeyond(valid, squaredError) & inRange))
+      addBeyondInfinity(i, inRange, ray, squaredError, valid);
+    else
+      addFirst(ray, valid, weigh(i, inRange, valid, squaredError));
+  }
+  void addTo(NormalEquations& total) {
+    total.cost += cost_.total();
+    sums_.addTo(total);
+  }
+
+ private:
+  using Ray = typename Camera::Ray;
+  using Derivatives = Row<Camera::kParameters>;
+
+  // With larger errors across the epipolar line a ray counts as no inlier anyway.
+  HYBRIDGV_INLINE DoubleMask mayBeBeyond(DoubleMask valid, Doubles squaredError) const {
+    constexpr double kFar = 64;  // of the squared scale
+    return ~valid & (squaredError < kFar * loss_.scale * loss_.scale);
+  }
+  HYBRIDGV_INLINE Doubles weigh(std::size_t i, DoubleMask inRange, DoubleMask valid, Doubles squaredError) {
+    return cost_.weigh(inRange, valid, squaredError, rays_.narrowing ? rays_.narrowing + i : nullptr);
+  }
+  HYBRIDGV_INLINE void addFirst(const Ray& ray, DoubleMask valid, Doubles weight) {
+    if (!any(weight > 0)) return;
+    const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
+    Derivatives derivatives;
+    differentiate(ray, variance, pose_, derivatives);
+    sums_.add(derivatives, ray.constraint, weight / variance);
+  }
+  // As a rule none of them: not part of the loop.
+  __attribute__((noinline)) void addBeyondInfinity(std::size_t i, const DoubleMask& inRange, const Ray& ray,
+                                                   const Doubles& squaredError, const DoubleMask& valid) {
+    const BeyondInfinity beyond(ray, pose_);
+    const DoubleMask isBeyond = beyond.applies & mayBeBeyond(valid, squaredError), all = valid | isBeyond;
+    const Doubles together = squaredError + select<Doubles>(isBeyond, beyond.squared(), Doubles{});
+    const Doubles weight = weigh(i, inRange, all, together);
+    addFirst(ray, all, weight);
+    const Doubles second = select<Doubles>(isBeyond, weight * beyond.precision, Doubles{});
+    if (!any(second > 0)) return;
+    Derivatives derivatives;
+    differentiate(beyond, ray, pose_, derivatives);
+    sums_.add(derivatives, select<Doubles>(isBeyond, beyond.error, Doubles{}), second);
+  }
+
+  const RayArrays& rays_;
+  typename Camera::Pose pose_;
+  Doubles unknownPixel_;
+  KindLoss loss_;
+  CostSum cost_;
+  NormalEquationsSum<Camera::kParameters> sums_;
+};
+
 template <class Camera>
 static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (rays.size == 0) return;
-  const typename Camera::Pose pose(plainPose);
-  CostSum cost(loss);
-  NormalEquationsSum<Camera::kParameters> sums;
-  forWeightedRays<Camera>(rays, plainPose, pose, loss, cost,
-                          [&](std::size_t, const typename Camera::Ray& ray, Doubles, const Row<Camera::kParameters>& derivatives,
-                              Doubles weight) { sums.add(derivatives, ray.constraint, weight); });
-  total.cost += cost.total();
+  RaySums<Camera> sums(rays, plainPose, loss);
+  forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) { sums.add(i, inRange); });
   sums.addTo(total);
 }
 
