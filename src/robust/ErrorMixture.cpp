@@ -32,7 +32,7 @@ ErrorMixture makeMixture(double deviation, double scale, double density, const I
 
 }  // namespace
 
-KindLoss ErrorMixture::loss(double weight) const { return {Loss::Mixture, scale, weight * 2 / (scale * scale), odds, true}; }
+KindLoss ErrorMixture::loss() const { return {Loss::Mixture, scale, 2 / (scale * scale), odds}; }
 
 double ErrorMixture::oddsAt(double squaredError) const {
   const double q = 1 + squaredError / (scale * scale), q2 = q * q, q4 = q2 * q2;

@@ -23,8 +23,7 @@ struct ErrorMixture {
   double boundary = 0;  // [px] where inlier and outlier are equally likely; at least 2.5 deviations, at most twice the
                         // threshold and the bound
 
-  // `weight`: of the squared errors. Of rays, it reaches beyond infinity.
-  KindLoss loss(double weight = 1) const;
+  KindLoss loss() const;
   // How many times as likely an inlier's as an outlier's an error is.
   double oddsAt(double squaredError) const;
   // Log of the likelihood of the errors over that of outliers only.

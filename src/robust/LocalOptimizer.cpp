@@ -83,9 +83,16 @@ PerKind<double> fittedDeviations(const SquaredErrors& inliers, int parameters) {
 
 KindLoss truncatedLoss(double truncation) { return {Loss::Truncated, truncation, 1 / (truncation * truncation)}; }
 
-// Of those that are more likely inliers. Rays may be beyond infinity.
-KindLoss likelierInlier(const ErrorMixture& kind, double weight) {
-  return {Loss::Truncated, kind.boundary, weight / (kind.deviation * kind.deviation), 1, true};
+// Of those that are more likely inliers.
+KindLoss likelierInlier(const ErrorMixture& kind) {
+  return {Loss::Truncated, kind.boundary, 1 / (kind.deviation * kind.deviation)};
+}
+
+// Of rays at the end.
+KindLoss beyondInfinity(KindLoss loss, double weight) {
+  loss.precision *= weight;
+  loss.reachesBeyondInfinity = true;
+  return loss;
 }
 
 // What is common to many correspondences (errors of the poses and focal lengths of the rig) shows in their errors only in part,
@@ -132,20 +139,23 @@ QueryPose LocalOptimizer::refine(const QueryPose& start) const {
 
 QueryPose LocalOptimizer::settle(const QueryPose& start, const Kinds& kinds) const { return likeliest(start, kinds, 2, kCoarse); }
 
-QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps,
-                                    double rayWeight) const {
+QueryPose LocalOptimizer::likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const {
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
-    const Noise at = noise(squaredErrors(pose, kinds));
-    pose = minimize(problem(at.rays.loss(rayWeight), at.points.loss(), kinds), pose, limits(steps)).pose;
+    const Noise at = noise(squaredErrors(pose, kinds, Reach::Infinity));
+    pose = minimize(problem(at.rays.loss(), at.points.loss(), kinds), pose, limits(steps)).pose;
   }
   return pose;
+}
+
+LeastSquaresProblem LocalOptimizer::mixtureProblem(const Noise& noise, const Kinds& kinds, double rayWeight) const {
+  return problem(beyondInfinity(noise.rays.loss(), rayWeight), noise.points.loss(), kinds);
 }
 
 bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
   if (!estimated_.focalLength) return true;
   const Kinds kinds = moreThanChance(pose);
-  const Noise at = noise(squaredErrors(pose, kinds));
+  const Noise at = noise(squaredErrors(pose, kinds, Reach::Infinity));
   ParameterMatrix covariance;
   return invertInformation(information(likelierInliers(at, kinds, 1), pose), covariance) &&
          varianceOfLogFocalLength(covariance, estimated_) < kSureDeviation * kSureDeviation;
@@ -154,10 +164,10 @@ bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
 bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
   const Kinds kinds = moreThanChance(final.pose);
   const auto logLikelihoodAt = [&](const QueryPose& pose) {
-    const SquaredErrors errors = squaredErrors(pose, kinds);
+    const SquaredErrors errors = squaredErrors(pose, kinds, Reach::BeyondInfinity);
     return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) - priorCost(pose) / 2;
   };
-  LeastSquaresProblem atFixedFocalLength = problem(final.noise.rays.loss(), final.noise.points.loss(), kinds);
+  LeastSquaresProblem atFixedFocalLength = mixtureProblem(final.noise, kinds, final.rayWeight);
   atFixedFocalLength.estimated.focalLength = false;
   const double best = logLikelihoodAt(final.pose);
   const auto fallsAt = [&](double factor) {
@@ -222,9 +232,10 @@ Kinds LocalOptimizer::moreThanChance(const QueryPose& pose) const {
   return kinds.rays || kinds.points ? kinds : kBothKinds;
 }
 
-SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& kinds) const {
+SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& kinds, Reach reach) const {
   SquaredErrors result;
-  if (kinds.rays) result.rays = scorer_.squaredRayErrorsBeyondInfinity(pose);
+  if (kinds.rays)
+    result.rays = reach == Reach::Infinity ? scorer_.squaredRayErrors(pose) : scorer_.squaredRayErrorsBeyondInfinity(pose);
   if (kinds.points) result.points = scorer_.squaredPointErrors(pose);
   return result;
 }
@@ -275,14 +286,16 @@ LeastSquaresProblem LocalOptimizer::narrowed(LeastSquaresProblem problem, const 
 }
 
 LeastSquaresProblem LocalOptimizer::likelierInliers(const Noise& noise, const Kinds& kinds, double rayWeight) const {
-  return problem(likelierInlier(noise.rays, rayWeight), likelierInlier(noise.points, 1), kinds);
+  return problem(beyondInfinity(likelierInlier(noise.rays), rayWeight), likelierInlier(noise.points), kinds);
 }
 
 LeastSquaresProblem LocalOptimizer::inliersOf(const Optimum& optimum) const {
   return likelierInliers(optimum.noise, optimum.kinds, optimum.rayWeight);
 }
 
-double LocalOptimizer::logLikelihood(const QueryPose& pose) const { return logLikelihood(pose, squaredErrors(pose, kBothKinds)); }
+double LocalOptimizer::logLikelihood(const QueryPose& pose) const {
+  return logLikelihood(pose, squaredErrors(pose, kBothKinds, Reach::Infinity));
+}
 
 double LocalOptimizer::logLikelihood(const QueryPose& pose, const SquaredErrors& errors) const {
   const Noise at = noise(errors);
@@ -303,7 +316,7 @@ double LocalOptimizer::logEvidenceForDistortion(const Optimum& optimum) const {
 
 Optimum LocalOptimizer::optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment,
                                   double rayWeight) const {
-  SquaredErrors errors = squaredErrors(pose, kBothKinds);
+  SquaredErrors errors = squaredErrors(pose, kBothKinds, Reach::BeyondInfinity);
   treatment.leaveOut(errors.rays);
   return {pose, kinds, treatment, finalNoise(errors), rayWeight};
 }
@@ -315,7 +328,9 @@ Optimum LocalOptimizer::keep(const QueryPose& pose, double rayWeight) const {
 }
 
 Optimum LocalOptimizer::polishNear(const QueryPose& start, double rayWeight) const {
-  return keep(likeliest(start, moreThanChance(start), 1, {4, 1e-8}, rayWeight), rayWeight);
+  const Kinds kinds = moreThanChance(start);
+  const Noise at = noise(squaredErrors(start, kinds, Reach::BeyondInfinity));
+  return keep(minimize(mixtureProblem(at, kinds, rayWeight), start, limits({4, 1e-8})).pose, rayWeight);
 }
 
 FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
@@ -377,7 +392,7 @@ void LocalOptimizer::allowForDepths(const LeastSquaresProblem& inliers, const Pa
 void LocalOptimizer::correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const {
   ParameterMatrix covariance;
   if (!invertInformation(information, covariance)) return;
-  SquaredErrors errors = squaredErrors(result.pose, kBothKinds);
+  SquaredErrors errors = squaredErrors(result.pose, kBothKinds, Reach::BeyondInfinity);
   result.treatment.leaveOut(errors.rays);
   const double rays = static_cast<double>(countBelow(errors.rays, result.noise.rays.boundary));
   const double points = static_cast<double>(countBelow(errors.points, result.noise.points.boundary));

@@ -74,8 +74,10 @@ class LocalOptimizer {
   Kinds moreThanChance(const QueryPose& pose) const;
 
  private:
+  // How far away rays may meet their viewing rays. To find a pose, not beyond infinity: there would be more poses that many agree with.
+  enum class Reach { Infinity, BeyondInfinity };
   // A kind that is not used counts as absent.
-  SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds) const;
+  SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds, Reach reach) const;
   // `benefitOfDoubt`: a factor for the odds that a ray is an inlier, if there are as many points.
   Noise noise(const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   Noise finalNoise(const SquaredErrors& errors) const;
@@ -103,7 +105,9 @@ class LocalOptimizer {
   // Of errors that are truncated at these limits [px].
   QueryPose leastTruncated(double rayLimit, double pointLimit, const QueryPose& start, const Kinds& kinds,
                            const Steps& steps) const;
-  QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps, double rayWeight = 1) const;
+  QueryPose likeliest(const QueryPose& start, const Kinds& kinds, int rounds, const Steps& steps) const;
+  // The squared errors of the rays count `rayWeight` times as much; they reach beyond infinity.
+  LeastSquaresProblem mixtureProblem(const Noise& noise, const Kinds& kinds, double rayWeight) const;
   // Whether it counts how deep in the scene a lever lies.
   enum class LeverTest { WithDepths, WithoutDepths };
   Optimum withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test, double rayWeight = 1) const;

@@ -62,11 +62,10 @@ Optimum LocalOptimizer::likeliestBeside(const Optimum& first, const QueryPose& f
 
 QueryPose LocalOptimizer::withFaintRays(const QueryPose& start, const Kinds& kinds) const {
   constexpr double kLarger = 4;  // deviation
-  const Noise at = noise(squaredErrors(start, kinds));
-  KindLoss rays = at.rays.loss();
-  rays.scale *= kLarger;
-  rays.precision /= kLarger * kLarger;
-  return minimize(problem(rays, at.points.loss(), kinds), start, limits(kCoarse)).pose;
+  const Noise at = noise(squaredErrors(start, kinds, Reach::BeyondInfinity));
+  LeastSquaresProblem faint = mixtureProblem(at, kinds, 1 / (kLarger * kLarger));
+  faint.rayLoss.scale *= kLarger;
+  return minimize(faint, start, limits(kCoarse)).pose;
 }
 
 // The losses of the rays are narrowed, and some are refused; only the last round goes to full precision.
@@ -77,10 +76,10 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
     const Steps& steps = round + 1 < rounds ? kCoarse : kPrecise;
-    SquaredErrors errors = squaredErrors(pose, kinds);
+    SquaredErrors errors = squaredErrors(pose, kinds, Reach::BeyondInfinity);
     treatment.leaveOut(errors.rays);
     const Noise at = noise(errors, kBenefitOfDoubt);
-    const LeastSquaresProblem robust = problem(at.rays.loss(rayWeight), at.points.loss(), kinds);
+    const LeastSquaresProblem robust = mixtureProblem(at, kinds, rayWeight);
     Levers levers = leversOf(robust, pose, treatment);
     if (refuse(levers.rays, {robust, at, steps, test, rayWeight}, pose, treatment)) {
       const PaddedValues before = treatment.narrowing();
@@ -112,7 +111,7 @@ bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const Round&
   LeastSquaresProblem inUnitsOfNoise = robust;
   inUnitsOfNoise.rayLoss = {Loss::Quadratic, 1, 1 / (noise.rays.deviation * noise.rays.deviation)};
   const std::vector<double> predicted = predictedVariances(inUnitsOfNoise, others, covariance);
-  SquaredErrors errors = squaredErrors(others, robust.kinds);
+  SquaredErrors errors = squaredErrors(others, robust.kinds, Reach::BeyondInfinity);
   const std::vector<double> ofRays = errors.rays;
   without.leaveOut(errors.rays);
   const DepthPrior depths(scorer_.arrays(), others, errors, noise);
@@ -163,7 +162,7 @@ double LocalOptimizer::logEvidenceOf(const Optimum& optimum) const {
   const Eigen::LLT<FullParameterMatrix> cholesky(extendedByIdentity(information(inliers, optimum.pose)));
   if (cholesky.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
   const double halfLogDeterminant = FullParameterMatrix(cholesky.matrixL()).diagonal().array().log().sum();
-  SquaredErrors errors = squaredErrors(optimum.pose, kBothKinds);
+  SquaredErrors errors = squaredErrors(optimum.pose, kBothKinds, Reach::BeyondInfinity);
   optimum.treatment.leaveOut(errors.rays);
   return logLikelihood(optimum.pose, errors) + logLikelihoodOfDepths(optimum.pose, errors) - halfLogDeterminant;
 }
