@@ -212,6 +212,25 @@ TEST_P(LongLens, TheDeviationIsHonestWithThingsInTheForeground) {
   }
 }
 
+// Of rays to things so far away that their disparity is noise, half are beyond infinity at the right pose. Without those, which would be a wall
+// for the pose, the errors were 3 to 11 times as large: a median of 0.4 % and 3 stated deviations.
+TEST_P(LongLens, RaysToInfinityAreNoWall) {
+  constexpr int kScenes = 300;
+  Layout layout;
+  layout.along = 0.02;
+  layout.near = 1;
+  layout.far = 50;
+  layout.rays = 100;
+  layout.points = 20;
+  layout.cameras = 6;
+  layout.pointNoise = 0;
+  const Errors errors(layout, GetParam(), kScenes, 9406);
+  EXPECT_GE(errors.relative.size(), kScenes * 95 / 100);
+  EXPECT_LT(median(errors.relative), 0.0012);
+  EXPECT_LT(median(errors.inDeviations), 0.9);
+  EXPECT_LE(errors.beyond(3), kScenes * 3 / 100);
+}
+
 std::string nameOf(const testing::TestParamInfo<double>& info) {
   return std::to_string(std::lround(100 * info.param)) + "PercentWrong";
 }

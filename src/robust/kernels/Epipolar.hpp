@@ -8,10 +8,10 @@ namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
 struct Epipolar {
-  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel)
+  HYBRIDGV_INLINE Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel)
       : Epipolar(rays, i, pose, unknownPixel, pose.f) {}
   // `depth`: of the viewing direction (u, v, depth) in the query's frame.
-  Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel, Doubles depth) {
+  HYBRIDGV_INLINE Epipolar(const RayArrays& rays, std::size_t i, const Pose& pose, Doubles unknownPixel, Doubles depth) {
     direction = {load<Doubles>(rays.dx + i), load<Doubles>(rays.dy + i), load<Doubles>(rays.dz + i)};
     imageNormal = {load<Doubles>(rays.ax + i), load<Doubles>(rays.ay + i), load<Doubles>(rays.az + i)};
     const Vec3<Doubles> centre{load<Doubles>(rays.cx + i), load<Doubles>(rays.cy + i), load<Doubles>(rays.cz + i)};

@@ -16,7 +16,7 @@ HYBRIDGV_INLINE Doubles toTheEighth(Doubles q) {
 // The sum of logs as the log of a product, which is taken before it can overflow: every factor is from 1 to 1e9 + 1.
 class LogSum {
  public:
-  void add(Doubles factor) {
+  HYBRIDGV_INLINE void add(Doubles factor) {
     product_ *= factor;
     if (++factors_ == 32) flush();
   }
@@ -60,7 +60,7 @@ class CostSum {
 
   // Adds what the correspondences cost, and returns the weights of their squared errors. Those that are not valid have weight 0.
   // `narrowing` may be null. Where it is infinite there is no cost either.
-  Doubles weigh(DoubleMask inRange, DoubleMask valid, Doubles squaredError, const double* narrowing = nullptr) {
+  HYBRIDGV_INLINE Doubles weigh(DoubleMask inRange, DoubleMask valid, Doubles squaredError, const double* narrowing = nullptr) {
     const Doubles factor = narrowing ? load<Doubles>(narrowing) : broadcast<Doubles>(1);
     const DoubleMask counts = factor < kInfinity;
     const Doubles x = relativeSquare(loss_, valid & counts, squaredError, factor);
@@ -73,7 +73,7 @@ class CostSum {
   double total() { return loss_.precision * loss_.scale * loss_.scale * sum(rho_ + logs_.value()); }
 
  private:
-  Doubles rho(Doubles x) const {
+  HYBRIDGV_INLINE Doubles rho(Doubles x) const {
     switch (loss_.loss) {
       case Loss::Quadratic:
         break;
@@ -84,7 +84,9 @@ class CostSum {
     }
     return x;
   }
-  Doubles mixtureFactor(Doubles x) const { return (1.0 + loss_.odds) / (1.0 + loss_.odds / toTheEighth(1.0 + x)); }
+  HYBRIDGV_INLINE Doubles mixtureFactor(Doubles x) const {
+    return (1.0 + loss_.odds) / (1.0 + loss_.odds / toTheEighth(1.0 + x));
+  }
 
   KindLoss loss_;
   LogSum logs_;

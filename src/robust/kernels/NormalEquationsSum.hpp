@@ -11,7 +11,7 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 template <int N>
 class NormalEquationsSum {
  public:
-  void add(const Doubles (&derivatives)[N], Doubles error, Doubles weight) {
+  HYBRIDGV_INLINE void add(const Doubles (&derivatives)[N], Doubles error, Doubles weight) {
     for (int row = 0, k = 0; row < N; ++row) {
       const Doubles weighted = weight * derivatives[row];
       gradient_[row] += weighted * error;

@@ -17,7 +17,7 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 // because v m_u = u m_v. Many entries of J^T W J are 0, equal or opposite, which leaves 20 sums instead of 28.
 class PinholePointSums {
  public:
-  void add(const Reprojection& point, Doubles inverseFocal, const Pose& pose, Doubles w) {
+  HYBRIDGV_INLINE void add(const Reprojection& point, Doubles inverseFocal, const Pose& pose, Doubles w) {
     const Doubles u = point.projectedU, v = point.projectedV, s = point.scale, errorU = point.errorU, errorV = point.errorV;
     const Doubles mu = u * inverseFocal, mv = v * inverseFocal, uv = u * mv, uu = -pose.f - u * mu, vv = pose.f + v * mv;
     const Doubles wu = w * u, wv = w * v, wuv = w * uv, wuu = w * uu, wvv = w * vv, ws = w * s;

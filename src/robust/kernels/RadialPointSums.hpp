@@ -33,7 +33,7 @@ HYBRIDGV_INLINE void differentiate(const RadialReprojection& point, Doubles inve
 
 class RadialPointSums {
  public:
-  void add(const RadialReprojection& point, Doubles inverseFocal, const RadialPose& pose, Doubles w) {
+  HYBRIDGV_INLINE void add(const RadialReprojection& point, Doubles inverseFocal, const RadialPose& pose, Doubles w) {
     Doubles byU[kParameters], byV[kParameters];
     differentiate(point, inverseFocal, pose, byU, byV);
     sums_.add(byU, point.errorU, w);

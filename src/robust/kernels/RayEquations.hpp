@@ -10,15 +10,18 @@ namespace hybridgv {
 namespace robust {
 namespace HYBRIDGV_INSTRUCTION_SET {
 
-// Calls body(i, ray, variance, derivatives, weight) for all rays from the i-th on, kWidth at a time, of which some have a weight.
-template <class Camera, class Body>
-HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& plainPose, const typename Camera::Pose& pose,
-                                     const KindLoss& loss, CostSum& cost, Body body) {
+// Calls body(i, ray, variance, derivatives, weight) for the rays from the begin-th on, kWidth at a time, of which some have a weight; but for
+// those for which leaveOut(i, inRange, valid, squaredError).
+template <class Camera, class LeaveOut, class Body>
+HYBRIDGV_INLINE void forWeightedRays(std::size_t begin, std::size_t end, const RayArrays& rays, const PlainPose& plainPose,
+                                     const typename Camera::Pose& pose, const KindLoss& loss, CostSum& cost, LeaveOut leaveOut,
+                                     Body body) {
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
-  forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) {
+  forRangeOfLongBody(begin, end, [&](std::size_t i, DoubleMask inRange) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles squaredError = ray.squaredError();
     const DoubleMask valid = isValid(ray, squaredError, loss);
+    if (leaveOut(i, inRange, valid, squaredError)) return;
     const Doubles weight = cost.weigh(inRange, valid, squaredError, rays.narrowing ? rays.narrowing + i : nullptr);
     if (!any(weight > 0)) return;
     const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
@@ -28,79 +31,94 @@ HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& pla
   });
 }
 
-// The normal equations of all rays.
+// For all rays.
+template <class Camera, class Body>
+HYBRIDGV_INLINE void forWeightedRays(const RayArrays& rays, const PlainPose& plainPose, const typename Camera::Pose& pose,
+                                     const KindLoss& loss, CostSum& cost, Body body) {
+  const auto none = [](std::size_t, DoubleMask, DoubleMask, Doubles) { return false; };
+  forWeightedRays<Camera>(0, rays.size, rays, plainPose, pose, loss, cost, none, body);
+}
+
+// With larger squared errors across the epipolar line rays have as good as no weight, and need not be looked at beyond infinity.
+static inline double farAcross(const KindLoss& loss) {
+  constexpr double kNothing = 1e4;
+  const double x = loss.loss == Loss::Mixture ? __builtin_sqrt(__builtin_sqrt(__builtin_sqrt(kNothing * loss.odds))) : 1;
+  return x * loss.scale * loss.scale;
+}
+
+// The normal equations of rays from some places on, kWidth from each, some of which may be beyond infinity. As a rule there are none.
 template <class Camera>
-class RaySums {
- public:
-  RaySums(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss)
-      : rays_(rays),
-        pose_(plainPose),
-        unknownPixel_(broadcast<Doubles>(squaredPixelOfUnknown(plainPose))),
-        loss_(loss),
-        cost_(loss) {}
-
-  // From the i-th on, kWidth of them.
-  HYBRIDGV_INLINE void add(std::size_t i, DoubleMask inRange) {
-    const Ray ray(rays_, i, pose_, unknownPixel_);
+__attribute__((noinline)) static void addRaysBeyondInfinity(const RayArrays& rays, const std::size_t* places, std::size_t count,
+                                                            const PlainPose& plainPose, const KindLoss& loss,
+                                                            NormalEquations& total) {
+  const typename Camera::Pose pose(plainPose);
+  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
+  const double far = farAcross(loss);
+  CostSum cost(loss);
+  NormalEquationsSum<Camera::kParameters> sums;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = places[k];
+    const DoubleMask inRange = i + kWidth <= rays.size ? allLanes() : lanesBelow(rays.size - i);
+    const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles squaredError = ray.squaredError();
-    const DoubleMask valid = isValid(ray, squaredError, loss_);
-    if (loss_.reachesBeyondInfinity && any(mayBeBeyond(valid, squaredError) & inRange))
-      addBeyondInfinity(i, inRange, ray, squaredError, valid);
-    else
-      addFirst(ray, valid, weigh(i, inRange, valid, squaredError));
-  }
-  void addTo(NormalEquations& total) {
-    total.cost += cost_.total();
-    sums_.addTo(total);
-  }
-
- private:
-  using Ray = typename Camera::Ray;
-  using Derivatives = Row<Camera::kParameters>;
-
-  // With larger errors across the epipolar line a ray counts as no inlier anyway.
-  HYBRIDGV_INLINE DoubleMask mayBeBeyond(DoubleMask valid, Doubles squaredError) const {
-    constexpr double kFar = 64;  // of the squared scale
-    return ~valid & (squaredError < kFar * loss_.scale * loss_.scale);
-  }
-  HYBRIDGV_INLINE Doubles weigh(std::size_t i, DoubleMask inRange, DoubleMask valid, Doubles squaredError) {
-    return cost_.weigh(inRange, valid, squaredError, rays_.narrowing ? rays_.narrowing + i : nullptr);
-  }
-  HYBRIDGV_INLINE void addFirst(const Ray& ray, DoubleMask valid, Doubles weight) {
-    if (!any(weight > 0)) return;
-    const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
-    Derivatives derivatives;
-    differentiate(ray, variance, pose_, derivatives);
-    sums_.add(derivatives, ray.constraint, weight / variance);
-  }
-  // As a rule none of them: not part of the loop.
-  __attribute__((noinline)) void addBeyondInfinity(std::size_t i, const DoubleMask& inRange, const Ray& ray,
-                                                   const Doubles& squaredError, const DoubleMask& valid) {
-    const BeyondInfinity beyond(ray, pose_);
-    const DoubleMask isBeyond = beyond.applies & mayBeBeyond(valid, squaredError), all = valid | isBeyond;
+    const DoubleMask inFront = isValid(ray, squaredError, loss);
+    const BeyondInfinity beyond(ray, pose);
+    const DoubleMask isBeyond = beyond.applies & ~inFront & (squaredError < far), valid = inFront | isBeyond;
     const Doubles together = squaredError + select<Doubles>(isBeyond, beyond.squared(), Doubles{});
-    const Doubles weight = weigh(i, inRange, all, together);
-    addFirst(ray, all, weight);
-    const Doubles second = select<Doubles>(isBeyond, weight * beyond.precision, Doubles{});
-    if (!any(second > 0)) return;
-    Derivatives derivatives;
-    differentiate(beyond, ray, pose_, derivatives);
-    sums_.add(derivatives, select<Doubles>(isBeyond, beyond.error, Doubles{}), second);
+    const Doubles weight = cost.weigh(inRange, valid, together, rays.narrowing ? rays.narrowing + i : nullptr);
+    if (!any(weight > 0)) continue;
+    const Doubles variance = select<Doubles>(valid, ray.variance, broadcast<Doubles>(1));
+    Row<Camera::kParameters> derivatives;
+    differentiate(ray, variance, pose, derivatives);
+    sums.add(derivatives, ray.constraint, weight / variance);
+    differentiate(beyond, ray, pose, derivatives);
+    const Doubles precision = select<Doubles>(isBeyond, beyond.precision, Doubles{});
+    sums.add(derivatives, select<Doubles>(isBeyond, beyond.error, Doubles{}), weight * precision);
   }
+  total.cost += cost.total();
+  sums.addTo(total);
+}
 
-  const RayArrays& rays_;
-  typename Camera::Pose pose_;
-  Doubles unknownPixel_;
-  KindLoss loss_;
-  CostSum cost_;
-  NormalEquationsSum<Camera::kParameters> sums_;
-};
+template <class Camera>
+__attribute__((noinline)) static void addRaysToInfinity(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss,
+                                                        NormalEquations& total) {
+  const typename Camera::Pose pose(plainPose);
+  CostSum cost(loss);
+  NormalEquationsSum<Camera::kParameters> sums;
+  forWeightedRays<Camera>(rays, plainPose, pose, loss, cost,
+                          [&](std::size_t, const typename Camera::Ray& ray, Doubles, const Row<Camera::kParameters>& derivatives,
+                              Doubles weight) { sums.add(derivatives, ray.constraint, weight); });
+  total.cost += cost.total();
+  sums.addTo(total);
+}
 
+// What may be beyond infinity is left out of the loop, one block after the other, and added apart.
 template <class Camera>
 static void addRays(const RayArrays& rays, const PlainPose& plainPose, const KindLoss& loss, NormalEquations& total) {
   if (rays.size == 0) return;
-  RaySums<Camera> sums(rays, plainPose, loss);
-  forRangeOfLongBody(0, rays.size, [&](std::size_t i, DoubleMask inRange) { sums.add(i, inRange); });
+  if (!loss.reachesBeyondInfinity) return addRaysToInfinity<Camera>(rays, plainPose, loss, total);
+  constexpr std::size_t kBlock = 512;
+  const typename Camera::Pose pose(plainPose);
+  const double far = farAcross(loss);
+  CostSum cost(loss);
+  NormalEquationsSum<Camera::kParameters> sums;
+  for (std::size_t begin = 0; begin < rays.size; begin += kBlock) {
+    std::size_t places[kBlock / kWidth], count = 0;
+    const auto leaveOut = [&](std::size_t i, DoubleMask inRange, DoubleMask valid, Doubles squaredError) {
+      const bool some = any(~valid & (squaredError < far) & inRange);
+      places[count] = i;
+      count += some;
+      return some;
+    };
+    const std::size_t end = begin + kBlock < rays.size ? begin + kBlock : rays.size;
+    forWeightedRays<Camera>(
+        begin, end, rays, plainPose, pose, loss, cost, leaveOut,
+        [&](std::size_t, const typename Camera::Ray& ray, Doubles, const Row<Camera::kParameters>& derivatives, Doubles weight) {
+          sums.add(derivatives, ray.constraint, weight);
+        });
+    if (count > 0) addRaysBeyondInfinity<Camera>(rays, places, count, plainPose, loss, total);
+  }
+  total.cost += cost.total();
   sums.addTo(total);
 }
 
