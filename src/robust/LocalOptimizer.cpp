@@ -165,7 +165,8 @@ bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
   const Kinds kinds = moreThanChance(final.pose);
   const auto logLikelihoodAt = [&](const QueryPose& pose) {
     const SquaredErrors errors = squaredErrors(pose, kinds, Reach::BeyondInfinity);
-    return final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) - priorCost(pose) / 2;
+    return final.rayWeight * final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) -
+           priorCost(pose) / 2;
   };
   LeastSquaresProblem atFixedFocalLength = mixtureProblem(final.noise, kinds, final.rayWeight);
   atFixedFocalLength.estimated.focalLength = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "robust/ApparentDepth.hpp"
@@ -17,10 +18,7 @@ namespace {
 // Map images are taken to be as noisy as the query, so that the place along the line has twice the variance of its error across.
 constexpr double kVariancesAlong = 2;
 
-template <class Losses>
-bool isInlier(double squaredError, const Losses& loss) {
-  return squaredError < loss.scale * loss.scale;
-}
+bool isInlier(double squaredError, const KindLoss& loss) { return squaredError < loss.scale * loss.scale; }
 
 Members inlierRays(const LeastSquaresProblem& problem, const PlainPose& pose) {
   const RayArrays& rays = problem.rays;
@@ -32,15 +30,26 @@ Members inlierRays(const LeastSquaresProblem& problem, const PlainPose& pose) {
   return result;
 }
 
-InverseDepths inverseDepthsOf(const Members& rays, const CorrespondenceArrays& arrays, const QueryPose& pose, double variance) {
+void add(double inverseDepth, double variance, InverseDepths& depths) {
+  depths.values.push_back(inverseDepth);
+  depths.variances.push_back(variance);
+}
+
+// Of these rays; those without one, where the query is in the rig camera, are taken out of the list.
+InverseDepths inverseDepthsOf(Members& rays, const CorrespondenceArrays& arrays, const QueryPose& pose, double variance) {
   InverseDepths depths;
   depths.values.reserve(rays.size() + arrays.points().size());
   depths.variances.reserve(rays.size() + arrays.points().size());
+  Members kept;
+  kept.reserve(rays.size());
   for (const std::size_t i : rays) {
     const ApparentDepth depth = apparentDepth(arrays.rays()[i], pose);
-    depths.values.push_back(depth.inverse);
-    depths.variances.push_back(variance * depth.perPixel * depth.perPixel);
+    const double ofError = variance * depth.perPixel * depth.perPixel;
+    if (!std::isfinite(depth.inverse) || !std::isfinite(ofError)) continue;
+    add(depth.inverse, ofError, depths);
+    kept.push_back(i);
   }
+  rays = std::move(kept);
   return depths;
 }
 
@@ -52,8 +61,8 @@ void addInlierPoints(const LeastSquaresProblem& problem, const PlainPose& plain,
   for (std::size_t i = 0; i < points.size; ++i) {
     if (!isInlier(errors[i], problem.pointLoss)) continue;
     const Eigen::Vector3d point(points.x[i], points.y[i], points.z[i]);
-    depths.values.push_back(1 / pose.rotation.col(2).dot(point - pose.position));
-    depths.variances.push_back(0);
+    const double inverse = 1 / pose.rotation.col(2).dot(point - pose.position);
+    if (std::isfinite(inverse)) add(inverse, 0, depths);
   }
 }
 
@@ -150,10 +159,10 @@ std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const Corre
                                  const RayNoise& noise) {
   if (!inliers.kinds.rays) return std::nullopt;
   const PlainPose plain = toPlain(pose);
-  const Members rays = inlierRays(inliers, plain);
-  if (rays.empty()) return std::nullopt;
+  Members rays = inlierRays(inliers, plain);
   const double variance = kVariancesAlong * noise.deviation * noise.deviation;
   InverseDepths depths = inverseDepthsOf(rays, arrays, pose, variance);
+  if (rays.empty()) return std::nullopt;
   if (inliers.kinds.points) addInlierPoints(inliers, plain, pose, depths);
   if (areSharp(depths, rays.size())) return std::nullopt;
   const DepthDistribution scene = depthDistribution(depths);
