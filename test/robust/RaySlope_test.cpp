@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <vector>
 
@@ -195,6 +196,33 @@ TEST(RaySlope, TheForegroundIsTrustedAsFarAsItIsNotChance) {
   };
   EXPECT_LT(10 * varianceFor(0), varianceFor(3));
   EXPECT_LT(varianceFor(0.5), varianceFor(3));
+}
+
+FullParameterMatrix randomCovariance(test::Random& random) {
+  FullParameterMatrix factor;
+  for (Eigen::Index i = 0; i < factor.size(); ++i) factor.data()[i] = random.normal();
+  return factor * factor.transpose() + 0.1 * FullParameterMatrix::Identity();
+}
+
+// In no direction smaller than either, nor larger than both together.
+TEST(Enlarged, LiesBetweenBothAndTheirSum) {
+  test::Random random(test::testSeed(), 188);
+  for (int i = 0; i < 20; ++i) {
+    const FullParameterMatrix base = randomCovariance(random), other = randomCovariance(random);
+    const FullParameterMatrix found = enlarged(base.llt().matrixL(), other);
+    const auto leastOf = [](const FullParameterMatrix& matrix) { return eigendecomposition(matrix).values[0]; };
+    EXPECT_GT(leastOf(found - base), -1e-9);
+    EXPECT_GT(leastOf(found - other), -1e-9);
+    EXPECT_GT(leastOf(base + other - found), -1e-9);
+  }
+}
+
+TEST(Enlarged, IsTheBaseWhereTheOtherIsSmallerOrAllowed) {
+  test::Random random(test::testSeed(), 189);
+  const FullParameterMatrix base = randomCovariance(random), L = base.llt().matrixL();
+  EXPECT_TRUE(enlarged(L, 0.5 * base).isApprox(base, 1e-9));
+  EXPECT_TRUE(enlarged(L, 1.5 * base, 0.5).isApprox(base, 1e-9));
+  EXPECT_TRUE(enlarged(L, 3 * base, 0.5).isApprox(2.5 * base, 1e-9));
 }
 
 }  // namespace
