@@ -375,6 +375,7 @@ RayNoise LocalOptimizer::rayNoise(const Optimum& optimum) const {
 // The covariance is for derivatives that are known. What it lacks where those of the rays are not is added.
 void LocalOptimizer::allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information,
                                     FinalPose& result) const {
+  if (result.depthsAreKnown) return;
   const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), result.pose, rayNoise(result));
   ParameterMatrix byInformation, bySlope;
   if (!rays || !invertInformation(information, byInformation)) return;

@@ -22,7 +22,8 @@ struct Optimum {
   Kinds kinds;  // that were used
   RayTreatment treatment;
   Noise noise;
-  double rayWeight = 1;  // of the rays' squared errors over their variance, at most 1: see RaySlope
+  double rayWeight = 1;         // of the rays' squared errors over their variance, at most 1: see RaySlope
+  bool depthsAreKnown = false;  // it has been seen that there is no RaySlope
 };
 
 // The refused rays of its treatment are no inliers, whatever their errors.
@@ -111,7 +112,7 @@ class LocalOptimizer {
   // Whether it counts how deep in the scene a lever lies.
   enum class LeverTest { WithDepths, WithoutDepths };
   Optimum withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test, double rayWeight = 1) const;
-  Optimum withBalancedRays(const Optimum& optimum) const;
+  Optimum withBalancedRays(Optimum optimum) const;
   Optimum likeliestBeside(const Optimum& first, const QueryPose& firstStart) const;
   QueryPose withFaintRays(const QueryPose& start, const Kinds& kinds) const;
   double logEvidenceOf(const Optimum& optimum) const;

@@ -30,11 +30,12 @@ Optimum LocalOptimizer::polish(const QueryPose& start) const {
 }
 
 // Where the depths of rays are hardly known, they bring more noise than they tell, and count less beside points.
-Optimum LocalOptimizer::withBalancedRays(const Optimum& optimum) const {
+Optimum LocalOptimizer::withBalancedRays(Optimum optimum) const {
   if (!optimum.kinds.points) return optimum;
   const PaddedValues narrowing = optimum.treatment.narrowing();
   const LeastSquaresProblem inliers = narrowed(inliersOf(optimum), narrowing);
   const std::optional<RaySlope> rays = raySlope(inliers, scorer_.arrays(), optimum.pose, rayNoise(optimum));
+  optimum.depthsAreKnown = !rays;
   if (!rays) return optimum;
   const double weight = bestWeight(information(withoutRays(inliers), optimum.pose), *rays, estimated_);
   return weight < 1 ? withoutLevers(optimum.pose, optimum.kinds, LeverTest::WithDepths, weight) : optimum;
