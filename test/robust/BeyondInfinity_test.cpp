@@ -11,6 +11,7 @@
 #include "SimdLevels.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "hybridgv/distortion.hpp"
+#include "movedPose.hpp"
 #include "robust/kernels/Kernels.hpp"
 #include "robust/toPlain.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 using namespace robust;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kRigFocalLength = 800, kDistortionUnit = 1e-6;
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kRigFocalLength = 800;
 
 struct Model {
   CameraModel model;
@@ -112,15 +113,6 @@ TEST(BeyondInfinity, TheErrorIsContinuousAtInfinity) {
   });
 }
 
-QueryPose moved(const QueryPose& pose, int parameter, double step) {
-  QueryPose result = pose;
-  if (parameter < 3) result.rotation = pose.rotation * Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(parameter));
-  if (parameter >= 3 && parameter < 6) result.position[parameter - 3] += step;
-  if (parameter == 6) result.focalLength *= std::exp(step);
-  if (parameter == 7) result.distortion += kDistortionUnit * step;
-  return result;
-}
-
 // Without an error across the line, the derivatives are exact.
 TEST(BeyondInfinity, GradientsAreTheCentralDifferencesOfTheCost) {
   forAllKernels([](const Kernels& tested, const Model& model) {
@@ -135,11 +127,10 @@ TEST(BeyondInfinity, GradientsAreTheCentralDifferencesOfTheCost) {
         EXPECT_GT(here.cost, 0);
         constexpr double h = 1e-6;
         for (int i = 0; i < model.parameters; ++i) {
-          const double difference =
-              (scene.sums(tested, moved(scene.pose, i, h), loss).cost - scene.sums(tested, moved(scene.pose, i, -h), loss).cost) /
-              (2 * h);
-          const double unit = i == 7 ? kDistortionUnit : 1;
-          EXPECT_NEAR(2 * unit * here.gradient[i], difference, 1e-4 * (1 + std::abs(difference))) << "parameter " << i;
+          const double difference = (scene.sums(tested, test::moved(scene.pose, i, h), loss).cost -
+                                     scene.sums(tested, test::moved(scene.pose, i, -h), loss).cost) /
+                                    (2 * h);
+          EXPECT_NEAR(2 * test::unitOf(i) * here.gradient[i], difference, 1e-4 * (1 + std::abs(difference))) << "parameter " << i;
         }
       }
     }

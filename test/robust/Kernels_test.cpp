@@ -12,12 +12,16 @@
 #include "correspondences/PaddedValues.hpp"
 #include "hybridgv/distortion.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
+#include "movedPose.hpp"
 
 namespace hybridgv {
 namespace {
 
 using namespace robust;
 using math::SimdLevel;
+using test::kDistortionUnit;
+using test::moved;
+using test::unitOf;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -189,20 +193,6 @@ NormalEquations sums(const Kernels& tested, const Data& data, const QueryPose& n
   if (rays) tested.addRays(rayArrays, toPlain(normalized), loss, result);
   return result;
 }
-
-// The distortion is measured in units in which a step is as large as the others'.
-constexpr double kDistortionUnit = 1e-6;
-
-QueryPose moved(const QueryPose& pose, int parameter, double step) {
-  QueryPose result = pose;
-  if (parameter < 3) result.rotation = pose.rotation * Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(parameter));
-  if (parameter >= 3 && parameter < 6) result.position[parameter - 3] += step;
-  if (parameter == 6) result.focalLength *= std::exp(step);
-  if (parameter == 7) result.distortion += kDistortionUnit * step;
-  return result;
-}
-
-double unitOf(int parameter) { return parameter == 7 ? kDistortionUnit : 1; }
 
 // gradient = J^T W e is half the derivative of the cost.
 void expectGradientIsTheDifference(const Kernels& tested, int parameters, const Data& data, const QueryPose& pose,
