@@ -16,8 +16,8 @@ namespace HYBRIDGV_INSTRUCTION_SET {
 template <class Camera>
 constexpr Kernels makeKernels() {
   return {&squaredPointErrors<Camera>,
-          &squaredRayErrors<Camera>,
-          &squaredRayErrorsBeyondInfinity<Camera>,
+          &squaredRayErrors<Camera, false>,
+          &squaredRayErrors<Camera, true>,
           &scorePoints<Camera>,
           &scoreRays<Camera>,
           &addPoints<Camera>,

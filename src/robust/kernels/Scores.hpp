@@ -19,30 +19,19 @@ static void squaredPointErrors(const PointArrays& points, const PlainPose& plain
   }
 }
 
-template <class Camera>
+// `reachesBeyondInfinity`: finite for those too that meet beyond infinity.
+template <class Camera, bool reachesBeyondInfinity>
 static void squaredRayErrors(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
   const typename Camera::Pose pose(plainPose);
   const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const typename Camera::Ray ray(rays, i, pose, unknownPixel);
     const Doubles error = ray.squaredError();
-    const Doubles squared = select<Doubles>(ray.inFront() & (error < kInfinity), error, broadcast<Doubles>(kInfinity));
-    store(errors + i, squared);
-  }
-}
-
-template <class Camera>
-static void squaredRayErrorsBeyondInfinity(const RayArrays& rays, const PlainPose& plainPose, double* errors) {
-  const typename Camera::Pose pose(plainPose);
-  const Doubles unknownPixel = broadcast<Doubles>(squaredPixelOfUnknown(plainPose));
-  for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    const typename Camera::Ray ray(rays, i, pose, unknownPixel);
-    const Doubles error = ray.squaredError(), infinite = broadcast<Doubles>(kInfinity);
     const DoubleMask isFinite = error < kInfinity, inFront = ray.inFront() & isFinite;
-    Doubles squared = select<Doubles>(inFront, error, infinite);
-    if (any(isFinite & ~inFront)) {
+    Doubles squared = select<Doubles>(inFront, error, broadcast<Doubles>(kInfinity));
+    if (reachesBeyondInfinity && any(isFinite & ~inFront)) {
       const BeyondInfinity beyond(ray, pose);
-      squared = select<Doubles>(beyond.applies & isFinite, error + beyond.squared(), squared);
+      squared = select<Doubles>(isFinite & ~inFront & beyond.applies, error + beyond.squared(), squared);
     }
     store(errors + i, squared);
   }
