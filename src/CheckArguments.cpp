@@ -61,8 +61,19 @@ void checkFinite(const std::string& name, const Eigen::Vector3d& value) {
   if (!value.allFinite()) throwInvalid(name, "must be finite, is " + detail::format(value));
 }
 
+// What nearly all rotations pass, ten times faster than the exact test, and nothing else: with columns a, b, c, a and b are orthonormal and
+// c = a x b, each to a tenth of the tolerance.
+static bool isClearlyRotation(const Eigen::Matrix3d& m, double tolerance) {
+  const auto isNear = [=](double value, double expected) { return std::abs(value - expected) < tolerance / 10; };
+  const double *a = m.data(), *b = a + 3, *c = b + 3;
+  return isNear(a[0] * a[0] + a[1] * a[1] + a[2] * a[2], 1) && isNear(b[0] * b[0] + b[1] * b[1] + b[2] * b[2], 1) &&
+         isNear(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], 0) && isNear(a[1] * b[2] - a[2] * b[1], c[0]) &&
+         isNear(a[2] * b[0] - a[0] * b[2], c[1]) && isNear(a[0] * b[1] - a[1] * b[0], c[2]);
+}
+
 bool isRotation(const Eigen::Matrix3d& matrix) {
   constexpr double kTolerance = 1e-6;
+  if (isClearlyRotation(matrix, kTolerance)) return true;
   if (!matrix.allFinite()) return false;  // Eigen's maximum may pass over a NaN
   const double error = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   return error < kTolerance && matrix.determinant() > 0;

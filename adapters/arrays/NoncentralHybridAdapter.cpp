@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <typeinfo>
 #include <utility>
 
 #include "CheckArguments.hpp"
@@ -117,5 +118,7 @@ double NoncentralHybridAdapter::getWeight2d3d(std::size_t index) const { return 
 
 int NoncentralHybridAdapter::getFeature2d2d(std::size_t index) const { return features2d2d_.empty() ? -1 : features2d2d_[index]; }
 int NoncentralHybridAdapter::getFeature2d3d(std::size_t index) const { return features2d3d_.empty() ? -1 : features2d3d_[index]; }
+
+bool NoncentralHybridAdapter::allowsConcurrentReads() const { return typeid(*this) == typeid(NoncentralHybridAdapter); }
 
 }  // namespace hybridgv

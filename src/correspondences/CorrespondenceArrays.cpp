@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "correspondences/numberCameras.hpp"
 #include "correspondences/readCorrespondence.hpp"
 #include "math/nthSmallest.hpp"
 
@@ -34,9 +35,9 @@ Normalization normalizationOf(const std::vector<Eigen::Vector3d>& positions) {
   return result;
 }
 
-template <class Element>
-std::vector<Element> chosen(const std::vector<Element>& list, const std::vector<int>& indices) {
-  std::vector<Element> result;
+template <class List>
+List chosen(const List& list, const std::vector<int>& indices) {
+  List result;
   result.reserve(indices.size());
   for (const int index : indices) result.push_back(list[static_cast<std::size_t>(index)]);
   return result;
@@ -46,35 +47,71 @@ std::vector<int> chosenIfAny(const std::vector<int>& list, const std::vector<int
   return list.empty() ? list : chosen(list, indices);
 }
 
-// Columns of padded(size) rows each.
-std::vector<double> chosenRows(const std::vector<double>& columns, std::size_t count, std::size_t size,
+// `count` columns of padded(size) rows, of which those beyond `size` are 0.
+UnsetVector<double> columnsOf(std::size_t count, std::size_t size) {
+  const std::size_t rows = padded(size);
+  UnsetVector<double> columns(count * rows);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t i = size; i < rows; ++i) columns[k * rows + i] = 0;
+  return columns;
+}
+
+UnsetVector<double> chosenRows(const UnsetVector<double>& columns, std::size_t count, std::size_t size,
                                const std::vector<int>& indices) {
   const std::size_t from = padded(size), to = padded(indices.size());
-  std::vector<double> result(count * to, 0);
+  UnsetVector<double> result = columnsOf(count, indices.size());
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t i = 0; i < indices.size(); ++i)
       result[k * to + i] = columns[k * from + static_cast<std::size_t>(indices[i])];
   return result;
 }
 
+// forRay(i) for all rays and forPoint(i) for all points, in blocks, several of which may be on their way.
+template <class ForRay, class ForPoint>
+void forAll(std::size_t rays, ForRay forRay, std::size_t points, ForPoint forPoint, const ForEach& forEach) {
+  constexpr std::size_t kBlock = 1024;
+  const auto blocks = [](std::size_t size) { return static_cast<int>((size + kBlock - 1) / kBlock); };
+  const auto inBlock = [](int block, std::size_t size, auto body) {
+    const std::size_t begin = static_cast<std::size_t>(block) * kBlock, end = std::min(begin + kBlock, size);
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  };
+  const int ofRays = blocks(rays);
+  forEach(ofRays + blocks(points), [&](int block) {
+    if (block < ofRays)
+      inBlock(block, rays, forRay);
+    else
+      inBlock(block - ofRays, points, forPoint);
+  });
+}
+
 }  // namespace
 
 CorrespondenceArrays::CorrespondenceArrays(const Correspondences& correspondences)
-    : points_(correspondences.points), rayFeatures_(correspondences.rayFeatures), pointFeatures_(correspondences.pointFeatures) {
-  rays_.reserve(correspondences.rays.size());
-  mapImagePoints_.reserve(correspondences.rays.size());
-  for (const RigRay& ray : correspondences.rays) {
-    rays_.push_back(ray.match);
-    mapImagePoints_.push_back(ray.mapImagePoint);
-  }
-  normalize();
-  fillRayColumns(correspondences.rays);
-  fillPointColumns();
+    : rayFeatures_(correspondences.rayFeatures), pointFeatures_(correspondences.pointFeatures) {
+  resize(correspondences.rays.size(), correspondences.points.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) setRay(i, correspondences.rays[i]);
+  for (std::size_t i = 0; i < points_.size(); ++i) setPoint(i, correspondences.points[i]);
+  normalize(oneByOne);
 }
 
 CorrespondenceArrays::CorrespondenceArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
-                                           const std::vector<int>& indices2d3d)
-    : CorrespondenceArrays(readCorrespondences(adapter, indices2d2d, indices2d3d)) {}
+                                           const std::vector<int>& indices2d3d, const ForEach& forEach)
+    : rayFeatures_(indices2d2d.size()), pointFeatures_(indices2d3d.size()) {
+  resize(indices2d2d.size(), indices2d3d.size());
+  const auto readRay = [&](std::size_t i) {
+    setRay(i, readRigRay(adapter, indices2d2d[i]));
+    rayFeatures_[i] = adapter.getFeature2d2d(static_cast<std::size_t>(indices2d2d[i]));
+  };
+  const auto readPointAt = [&](std::size_t i) {
+    setPoint(i, readPoint(adapter, indices2d3d[i]));
+    pointFeatures_[i] = adapter.getFeature2d3d(static_cast<std::size_t>(indices2d3d[i]));
+  };
+  forAll(rays_.size(), readRay, points_.size(), readPointAt, adapter.allowsConcurrentReads() ? forEach : ForEach(oneByOne));
+  clearIfNoneIsKnown(rayFeatures_);
+  clearIfNoneIsKnown(pointFeatures_);
+  numberCamerasByCentre(rays_.data(), rays_.size());
+  normalize(forEach);
+}
 
 CorrespondenceArrays CorrespondenceArrays::subset(const std::vector<int>& rayIndices,
                                                   const std::vector<int>& pointIndices) const {
@@ -90,44 +127,52 @@ CorrespondenceArrays CorrespondenceArrays::subset(const std::vector<int>& rayInd
   return result;
 }
 
-void CorrespondenceArrays::normalize() {
+void CorrespondenceArrays::resize(std::size_t rays, std::size_t points) {
+  rays_.resize(rays);
+  mapImagePoints_.resize(rays);
+  points_.resize(points);
+  rayColumns_ = columnsOf(kRayColumns, rays);
+  pointColumns_ = columnsOf(kPointColumns, points);
+}
+
+void CorrespondenceArrays::normalize(const ForEach& forEach) {
   // Some tell as much as all.
   constexpr std::size_t kEnough = 100;
   std::vector<Eigen::Vector3d> positions;
   for (std::size_t i = 0; i < std::min(points_.size(), kEnough); ++i) positions.push_back(points_[i].point);
   for (std::size_t i = 0; i < std::min(rays_.size(), kEnough); ++i) positions.push_back(rays_[i].centre);
   normalization_ = normalizationOf(positions);
-  for (PointMatch& match : points_) match.point = normalization_.apply(match.point);
-  for (RayMatch& match : rays_) match.centre = normalization_.apply(match.centre);
+  forAll(
+      rays_.size(), [&](std::size_t i) { normalizeRay(i); }, points_.size(), [&](std::size_t i) { normalizePoint(i); }, forEach);
 }
 
-void CorrespondenceArrays::fillRayColumns(const std::vector<RigRay>& rays) {
-  const std::size_t rows = padded(rays.size());
-  rayColumns_.assign(kRayColumns * rows, 0);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const RayMatch& match = rays_[i];
-    const EpipolarRay& ray = rays[i].epipolar;
-    const double g = rays[i].mapImagePoint.focalLength;
-    double values[kRayColumns] = {match.u, match.v};
-    for (int k = 0; k < 3; ++k) {
-      values[2 + k] = match.centre[k];
-      values[5 + k] = ray.direction[k];
-      values[8 + k] = ray.imageNormal[k];
-    }
-    values[11] = g > 0 ? 1 / (g * g) : 0;
-    values[12] = g > 0 ? 0 : 1;
-    for (std::size_t k = 0; k < kRayColumns; ++k) rayColumns_[k * rows + i] = values[k];
+void CorrespondenceArrays::setRay(std::size_t i, const RigRay& ray) {
+  rays_[i] = ray.match;
+  mapImagePoints_[i] = ray.mapImagePoint;
+  const std::size_t rows = padded(rays_.size());
+  const double g = ray.mapImagePoint.focalLength;
+  for (std::size_t k = 0; k < 3; ++k) {
+    rayColumns_[(5 + k) * rows + i] = ray.epipolar.direction[static_cast<Eigen::Index>(k)];
+    rayColumns_[(8 + k) * rows + i] = ray.epipolar.imageNormal[static_cast<Eigen::Index>(k)];
   }
+  rayColumns_[11 * rows + i] = g > 0 ? 1 / (g * g) : 0;
+  rayColumns_[12 * rows + i] = g > 0 ? 0 : 1;
 }
 
-void CorrespondenceArrays::fillPointColumns() {
+void CorrespondenceArrays::normalizeRay(std::size_t i) {
+  RayMatch& match = rays_[i];
+  match.centre = normalization_.apply(match.centre);
+  const std::size_t rows = padded(rays_.size());
+  const double values[5] = {match.u, match.v, match.centre[0], match.centre[1], match.centre[2]};
+  for (std::size_t k = 0; k < 5; ++k) rayColumns_[k * rows + i] = values[k];
+}
+
+void CorrespondenceArrays::normalizePoint(std::size_t i) {
+  PointMatch& match = points_[i];
+  match.point = normalization_.apply(match.point);
   const std::size_t rows = padded(points_.size());
-  pointColumns_.assign(kPointColumns * rows, 0);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointMatch& match = points_[i];
-    const double values[kPointColumns] = {match.u, match.v, match.point[0], match.point[1], match.point[2]};
-    for (std::size_t k = 0; k < kPointColumns; ++k) pointColumns_[k * rows + i] = values[k];
-  }
+  const double values[kPointColumns] = {match.u, match.v, match.point[0], match.point[1], match.point[2]};
+  for (std::size_t k = 0; k < kPointColumns; ++k) pointColumns_[k * rows + i] = values[k];
 }
 
 double CorrespondenceArrays::imageSize() const {
@@ -150,6 +195,8 @@ double CorrespondenceArrays::imageRadius() const {
 }
 
 void CorrespondenceArrays::fixUnknownFocalLengths() {
+  const auto isUnknown = [](const MapImagePoint& point) { return !(point.focalLength > 0); };
+  if (std::none_of(mapImagePoints_.begin(), mapImagePoints_.end(), isUnknown)) return;
   const double g = imageSize();
   if (!(g > 0)) return;
   const std::size_t rows = padded(rays_.size());

@@ -6,6 +6,8 @@
 
 #include "correspondences/ArrayViews.hpp"
 #include "correspondences/Correspondence.hpp"
+#include "correspondences/ForEach.hpp"
+#include "correspondences/UnsetVector.hpp"
 #include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
 #include "hybridgv/types.hpp"
 
@@ -30,10 +32,12 @@ struct Normalization {
 
 class CorrespondenceArrays {
  public:
+  CorrespondenceArrays() = default;
   explicit CorrespondenceArrays(const Correspondences& correspondences);
-  // Reads the correspondences indices2d2d and indices2d3d, in this order. Throws as readCorrespondences does.
+  // Reads the correspondences indices2d2d and indices2d3d, in this order, several at a time if the adapter allows it. Throws as
+  // readCorrespondences does.
   CorrespondenceArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& indices2d2d,
-                       const std::vector<int>& indices2d3d);
+                       const std::vector<int>& indices2d3d, const ForEach& forEach = oneByOne);
 
   // Those with these indices, in their order: the same numbers, in the same normalized frame.
   CorrespondenceArrays subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const;
@@ -51,10 +55,10 @@ class CorrespondenceArrays {
 
   const Normalization& normalization() const { return normalization_; }
   // In the order in which they were given, normalized.
-  const std::vector<RayMatch>& rays() const { return rays_; }
-  const std::vector<PointMatch>& points() const { return points_; }
+  const UnsetVector<RayMatch>& rays() const { return rays_; }
+  const UnsetVector<PointMatch>& points() const { return points_; }
   using MapImagePoint = correspondences::MapImagePoint;
-  const std::vector<MapImagePoint>& mapImagePoints() const { return mapImagePoints_; }
+  const UnsetVector<MapImagePoint>& mapImagePoints() const { return mapImagePoints_; }
   // Numbers of the query's features; empty if none is known.
   const std::vector<int>& rayFeatures() const { return rayFeatures_; }
   const std::vector<int>& pointFeatures() const { return pointFeatures_; }
@@ -62,17 +66,21 @@ class CorrespondenceArrays {
   PointArrays pointArrays() const;
 
  private:
-  CorrespondenceArrays() = default;
-  void normalize();
-  void fillRayColumns(const std::vector<RigRay>& rays);
-  void fillPointColumns();
+  void resize(std::size_t rays, std::size_t points);
+  // A correspondence as it was given, and what of its columns does not depend on the normalization.
+  void setRay(std::size_t i, const RigRay& ray);
+  void setPoint(std::size_t i, const PointMatch& point) { points_[i] = point; }
+  // When all are set.
+  void normalize(const ForEach& forEach);
+  void normalizeRay(std::size_t i);
+  void normalizePoint(std::size_t i);
 
   Normalization normalization_;
-  std::vector<RayMatch> rays_;
-  std::vector<PointMatch> points_;
-  std::vector<MapImagePoint> mapImagePoints_;
+  UnsetVector<RayMatch> rays_;
+  UnsetVector<PointMatch> points_;
+  UnsetVector<MapImagePoint> mapImagePoints_;
   std::vector<int> rayFeatures_, pointFeatures_;
-  std::vector<double> rayColumns_, pointColumns_;
+  UnsetVector<double> rayColumns_, pointColumns_;
 };
 
 // The next multiple of kPadding.

@@ -9,6 +9,7 @@ double HybridAdapterBase::getWeight2d2d(std::size_t /*index*/) const { return 1;
 double HybridAdapterBase::getWeight2d3d(std::size_t /*index*/) const { return 1; }
 int HybridAdapterBase::getFeature2d2d(std::size_t /*index*/) const { return -1; }
 int HybridAdapterBase::getFeature2d3d(std::size_t /*index*/) const { return -1; }
+bool HybridAdapterBase::allowsConcurrentReads() const { return false; }
 
 }  // namespace hybrid_pose
 }  // namespace hybridgv

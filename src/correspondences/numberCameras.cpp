@@ -73,13 +73,26 @@ std::vector<int> ranksOf(const std::vector<Camera>& cameras) {
   return ranks;
 }
 
+// matchOf(i): the i-th ray.
+template <class MatchOf>
+void numberByCentre(std::size_t count, MatchOf matchOf) {
+  CameraTable table(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    RayMatch& match = matchOf(i);
+    match.camera = table.place(match.centre, match.camera);
+  }
+  const std::vector<int> ranks = ranksOf(table.cameras());
+  for (std::size_t i = 0; i < count; ++i) matchOf(i).camera = ranks[static_cast<std::size_t>(matchOf(i).camera)];
+}
+
 }  // namespace
 
 void numberCamerasByCentre(std::vector<RigRay>& rays) {
-  CameraTable table(rays.size());
-  for (RigRay& ray : rays) ray.match.camera = table.place(ray.match.centre, ray.match.camera);
-  const std::vector<int> ranks = ranksOf(table.cameras());
-  for (RigRay& ray : rays) ray.match.camera = ranks[static_cast<std::size_t>(ray.match.camera)];
+  numberByCentre(rays.size(), [&](std::size_t i) -> RayMatch& { return rays[i].match; });
+}
+
+void numberCamerasByCentre(RayMatch* rays, std::size_t count) {
+  numberByCentre(count, [&](std::size_t i) -> RayMatch& { return rays[i]; });
 }
 
 void numberCamerasOfSample(RayMatch* rays, int count) {

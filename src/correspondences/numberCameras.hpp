@@ -14,6 +14,7 @@ namespace correspondences {
 // Numbers the cameras 0, 1, .. by increasing index (RayMatch::camera as read; of several the least); cameras with one index by
 // their coordinates. The result does not depend on the order of the rays.
 void numberCamerasByCentre(std::vector<RigRay>& rays);
+void numberCamerasByCentre(RayMatch* rays, std::size_t count);
 
 // The same for a few rays, of which it only matters who shares a centre: the number is the place of the first ray with it.
 void numberCamerasOfSample(RayMatch* rays, int count);

@@ -58,36 +58,18 @@ RayReading readRay(const hybrid_pose::HybridAdapterBase& adapter, int index) {
   return result;
 }
 
-RigRay readRigRay(const hybrid_pose::HybridAdapterBase& adapter, int index) {
-  const RayReading ray = readRay(adapter, index);
-  const bool isPinhole = ray.bearing[2] > 0;
-  const MapImagePoint inMap{isPinhole ? ray.bearing[0] / ray.bearing[2] : 0, isPinhole ? ray.bearing[1] / ray.bearing[2] : 0,
-                            readFocalLength(adapter, index)};
-  return {ray.match, makeEpipolarRay(ray.bearing, ray.rotation), inMap};
-}
-
-PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index) {
-  const auto i = static_cast<std::size_t>(index);
-  const Eigen::Vector3d image = readImagePoint("getImagePoint2d3d", index, adapter.getImagePoint2d3d(i));
-  const Eigen::Vector3d point = adapter.getPoint(i);
-  checkFinite("getPoint", index, point);
-  return {image[0], image[1], point};
-}
-
 std::size_t checkedCount(const char* getter, std::size_t count) {
   if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throwInvalid(std::string("adapter.") + getter + "()", "at most 2^31 - 1 are possible, is " + std::to_string(count));
   return count;
 }
 
-// Empty if none is known.
 template <class Feature>
 std::vector<int> readFeatures(const std::vector<int>& indices, Feature featureOf) {
   std::vector<int> features(indices.size());
   std::transform(indices.begin(), indices.end(), features.begin(),
                  [&](int index) { return featureOf(static_cast<std::size_t>(index)); });
-  const bool anyIsKnown = std::any_of(features.begin(), features.end(), [](int feature) { return feature >= 0; });
-  if (!anyIsKnown) features.clear();
+  clearIfNoneIsKnown(features);
   return features;
 }
 
@@ -103,6 +85,10 @@ Counts readCounts(const hybrid_pose::HybridAdapterBase& adapter) {
           checkedCount("getNumberCorrespondences2d3d", adapter.getNumberCorrespondences2d3d())};
 }
 
+void clearIfNoneIsKnown(std::vector<int>& features) {
+  if (std::all_of(features.begin(), features.end(), [](int feature) { return feature < 0; })) features.clear();
+}
+
 Correspondences readCorrespondences(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rayIndices,
                                     const std::vector<int>& pointIndices) {
   Correspondences result;
@@ -114,6 +100,22 @@ Correspondences readCorrespondences(const hybrid_pose::HybridAdapterBase& adapte
   result.rayFeatures = readFeatures(rayIndices, [&](std::size_t index) { return adapter.getFeature2d2d(index); });
   result.pointFeatures = readFeatures(pointIndices, [&](std::size_t index) { return adapter.getFeature2d3d(index); });
   return result;
+}
+
+RigRay readRigRay(const hybrid_pose::HybridAdapterBase& adapter, int index) {
+  const RayReading ray = readRay(adapter, index);
+  const bool isPinhole = ray.bearing[2] > 0;
+  const MapImagePoint inMap{isPinhole ? ray.bearing[0] / ray.bearing[2] : 0, isPinhole ? ray.bearing[1] / ray.bearing[2] : 0,
+                            readFocalLength(adapter, index)};
+  return {ray.match, makeEpipolarRay(ray.bearing, ray.rotation), inMap};
+}
+
+PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  const Eigen::Vector3d image = readImagePoint("getImagePoint2d3d", index, adapter.getImagePoint2d3d(i));
+  const Eigen::Vector3d point = adapter.getPoint(i);
+  checkFinite("getPoint", index, point);
+  return {image[0], image[1], point};
 }
 
 void readSampleRays(const hybrid_pose::HybridAdapterBase& adapter, const int* indices, int count, RayMatch* rays) {

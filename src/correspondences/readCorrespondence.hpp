@@ -17,11 +17,16 @@ Counts readCounts(const hybrid_pose::HybridAdapterBase& adapter);
 
 // The correspondences with these indices, in their order, the rays' cameras numbered by centre.
 //
-// These functions throw std::invalid_argument, with the getter's name, for a number that is not finite, a ray of length zero, a
-// camRotation that is not a rotation, a negative focal length.
+// These functions and the next two throw std::invalid_argument, with the getter's name, for a number that is not finite, a ray of length
+// zero, a camRotation that is not a rotation, a negative focal length.
 Correspondences readCorrespondences(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rayIndices,
                                     const std::vector<int>& pointIndices);
-// The same for a minimal sample: `count` correspondences of one kind, without an allocation.
+// One of them. The ray's camera has the number that the adapter gives it.
+RigRay readRigRay(const hybrid_pose::HybridAdapterBase& adapter, int index);
+PointMatch readPoint(const hybrid_pose::HybridAdapterBase& adapter, int index);
+// Features without a number are negative; if none has one, the list becomes empty.
+void clearIfNoneIsKnown(std::vector<int>& features);
+// The correspondences of a minimal sample: `count` correspondences of one kind, without an allocation.
 void readSampleRays(const hybrid_pose::HybridAdapterBase& adapter, const int* indices, int count, RayMatch* rays);
 void readSamplePoints(const hybrid_pose::HybridAdapterBase& adapter, const int* indices, int count, PointMatch* points);
 

@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include "CheckArguments.hpp"
 #include "HybridScene.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "hybridgv/absolute_pose/methods.hpp"
@@ -185,6 +188,25 @@ class TurnedAdapter : public NoncentralHybridAdapter {
   Eigen::Matrix3d change_;
 };
 
+TEST(ReadCorrespondence, ARotationIsOneToWithinTheToleranceHoweverItIsTested) {
+  test::Random random(test::testSeed(), 906);
+  for (const double size : {0., 1e-12, 1e-8, 9e-8, 1.1e-7, 3e-7, 1e-6, 3e-6, 1e-3})
+    for (int i = 0; i < 200; ++i) {
+      Eigen::Matrix3d matrix = random.rotation();
+      for (int k = 0; k < 9; ++k) matrix.data()[k] += random.uniform(-size, size);
+      if (i % 4 == 0) matrix.col(i % 3) *= -1;
+      const double error = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+      EXPECT_EQ(isRotation(matrix), error < 1e-6 && matrix.determinant() > 0) << size;
+    }
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  for (int k = 0; k < 9; ++k)
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      Eigen::Matrix3d damaged = matrix;
+      damaged.data()[k] = value;
+      EXPECT_FALSE(isRotation(damaged));
+    }
+}
+
 TEST(ReadCorrespondence, ACamRotationThatIsNoRotationIsRefused) {
   const NoncentralHybridAdapter data = makeScene(904).adapter();
   const Eigen::Matrix3d scaled = 3 * Eigen::Matrix3d::Identity(), mirror = Eigen::Vector3d(1, 1, -1).asDiagonal();
@@ -225,6 +247,90 @@ TEST(ReadCorrespondence, WrongCameraIndicesDoNotMatter) {
     EXPECT_TRUE(result.success) << toString(result.failureReason);
     EXPECT_LT((result.pose.position - scene.truth.position).norm(), 0.5);
   }
+}
+
+// Sees how many threads read it at a time.
+class WatchingAdapter : public NoncentralHybridAdapter {
+ public:
+  WatchingAdapter(const NoncentralHybridAdapter& data, bool allowsConcurrentReads)
+      : NoncentralHybridAdapter(data), allows_(allowsConcurrentReads) {}
+  bool allowsConcurrentReads() const override { return allows_; }
+  Eigen::Vector3d getPoint(std::size_t i) const override {
+    const int inside = ++inside_;
+    for (int most = most_; inside > most && !most_.compare_exchange_weak(most, inside);) continue;
+    if (allows_ && i < 3000) std::this_thread::yield();
+    --inside_;
+    return NoncentralHybridAdapter::getPoint(i);
+  }
+  int mostAtATime() const { return most_; }
+
+ private:
+  bool allows_;
+  mutable std::atomic<int> inside_{0}, most_{0};
+};
+
+NoncentralHybridAdapter manyCorrespondences() {
+  test::Random random(test::testSeed(), 905);
+  test::SceneOptions options;
+  options.rays = 3000;
+  options.points = 5000;
+  options.imageNoise = 1;
+  options.outlierShareRays = options.outlierSharePoints = 0.2;
+  return test::makeHybridScene(random, options).adapter();
+}
+
+sac::HybridRansacResult runWithThreads(const hybrid_pose::HybridAdapterBase& adapter, int threads) {
+  sac::HybridRansacOptions options;
+  options.threads = threads;
+  return sac::hybridRansac(adapter, options);
+}
+
+TEST(ReadCorrespondence, OneThreadAtATimeUnlessTheAdapterAllowsMore) {
+  const NoncentralHybridAdapter data = manyCorrespondences();
+  EXPECT_TRUE(data.allowsConcurrentReads());
+  const sac::HybridRansacResult alone = runWithThreads(data, 1);
+  ASSERT_TRUE(alone.success);
+  for (const bool allows : {false, true}) {
+    const WatchingAdapter adapter(data, allows);
+    const sac::HybridRansacResult result = runWithThreads(adapter, 4);
+    EXPECT_EQ(result.pose.position, alone.pose.position) << allows;
+    EXPECT_EQ(result.covariance, alone.covariance) << allows;
+    if (!allows) {
+      EXPECT_EQ(adapter.mostAtATime(), 1);
+    }
+  }
+}
+
+// A derived class may have getters of which the base knows nothing.
+TEST(ReadCorrespondence, DerivedAdaptersAreReadByOneThreadUnlessTheySayOtherwise) {
+  const NoncentralHybridAdapter data = manyCorrespondences();
+  EXPECT_FALSE(CountingAdapter(data).allowsConcurrentReads());
+  EXPECT_TRUE(WatchingAdapter(data, true).allowsConcurrentReads());
+}
+
+class FaultyAdapter : public NoncentralHybridAdapter {
+ public:
+  explicit FaultyAdapter(const NoncentralHybridAdapter& data) : NoncentralHybridAdapter(data) {}
+  bool allowsConcurrentReads() const override { return true; }
+  Eigen::Vector3d getPoint(std::size_t i) const override {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    return i % 50 == 7 ? Eigen::Vector3d(nan, 0, 0) : NoncentralHybridAdapter::getPoint(i);
+  }
+};
+
+TEST(ReadCorrespondence, TheSameFaultIsReportedWhateverTheNumberOfThreads) {
+  const FaultyAdapter adapter(manyCorrespondences());
+  const auto message = [&](int threads) -> std::string {
+    try {
+      runWithThreads(adapter, threads);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string expected = message(1);
+  EXPECT_NE(expected.find("getPoint"), std::string::npos) << expected;
+  for (int round = 0; round < 20; ++round) EXPECT_EQ(message(2 + round % 3), expected);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ namespace hybrid_pose {
 ///   `getCamOffset(i) + beta * getCamRotation(i) * getBearingVector(i)`, beta > 0.
 /// * 2D-3D correspondence i: the query's image point and a point in the rig's frame.
 ///
-/// Adapters are only read, and may be shared between threads as long as the derived class's getters may.
+/// Adapters are only read, and may be shared between threads as long as the derived class's getters may. No function of the library
+/// calls getters from several threads at a time unless the adapter allows it, see allowsConcurrentReads.
 class HYBRIDGV_EXPORT HybridAdapterBase {
  public:
   virtual ~HybridAdapterBase();
@@ -60,6 +61,11 @@ class HYBRIDGV_EXPORT HybridAdapterBase {
   virtual int getFeature2d2d(std::size_t index) const;
   /// The same of 2D-3D correspondence `index`. Both kinds use the same numbers.
   virtual int getFeature2d3d(std::size_t index) const;
+
+  /// Whether getters may be called from several threads at the same time (the default: no). Then hybridRansac reads many thousands of
+  /// correspondences by all its threads. Getters that only read memory may be; those that run Python, keep a cache or count their
+  /// calls as a rule may not.
+  virtual bool allowsConcurrentReads() const;
 
  protected:
   HybridAdapterBase() = default;

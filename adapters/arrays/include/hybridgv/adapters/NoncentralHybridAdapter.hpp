@@ -58,6 +58,9 @@ class HYBRIDGV_EXPORT NoncentralHybridAdapter : public hybrid_pose::HybridAdapte
   int getFeature2d2d(std::size_t index) const override;
   int getFeature2d3d(std::size_t index) const override;
 
+  /// True, but for derived classes, of whose getters nothing is known: they say it themselves.
+  bool allowsConcurrentReads() const override;
+
  private:
   Vectors imagePoints2d2d_, bearingVectors_;
   std::vector<int> camIndices_;
