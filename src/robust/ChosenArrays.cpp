@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "correspondences/arrayParts.hpp"
+
 namespace hybridgv {
 namespace robust {
 
@@ -20,8 +22,7 @@ PointArrays ChosenArrays::points(const PointArrays& all, const Members& members)
   points_.clear();
   PointArrays chosen = all;
   chosen.size = members.size();
-  for (const double* PointArrays::*column : {&PointArrays::u, &PointArrays::v, &PointArrays::x, &PointArrays::y, &PointArrays::z})
-    chosen.*column = points_.pick(all.*column, members);
+  for (const double** column : correspondences::columnsOf(chosen)) *column = points_.pick(*column, members);
   return chosen;
 }
 
@@ -29,10 +30,7 @@ RayArrays ChosenArrays::rays(const RayArrays& all, const Members& members) {
   rays_.clear();
   RayArrays chosen = all;
   chosen.size = members.size();
-  for (const double* RayArrays::*column :
-       {&RayArrays::u, &RayArrays::v, &RayArrays::cx, &RayArrays::cy, &RayArrays::cz, &RayArrays::dx, &RayArrays::dy,
-        &RayArrays::dz, &RayArrays::ax, &RayArrays::ay, &RayArrays::az, &RayArrays::squaredPixel, &RayArrays::isUnknown})
-    chosen.*column = rays_.pick(all.*column, members);
+  for (const double** column : correspondences::columnsOf(chosen)) *column = rays_.pick(*column, members);
   narrowing_ = PaddedValues();
   if (all.narrowing) {
     std::vector<double> values;

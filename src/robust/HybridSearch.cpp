@@ -1,11 +1,13 @@
 #include "robust/HybridSearch.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "robust/MirroredPose.hpp"
 #include "robust/Overlap.hpp"
 #include "robust/SampleCheck.hpp"
 #include "robust/sampleLimit.hpp"
@@ -54,8 +56,12 @@ FocalLengthGuess makeGuess(const sac::HybridRansacOptions& options, const Corres
 
 }  // namespace
 
+std::size_t workersFor(const sac::HybridRansacOptions& options) {
+  return numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)));
+}
+
 HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const sac::HybridRansacOptions& options,
-                           Clock::time_point start)
+                           WorkerPool& workers, Clock::time_point start)
     : options_(options),
       start_(start),
       all_(std::move(all)),
@@ -70,16 +76,22 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
       features_(data_.arrays),
-      significance_(scorer_, chance_, data_.sampler, features_, estimated_.parameters(), options.seed),
+      significance_(scorer_, chance_, data_.sampler, features_, workers, estimated_.parameters(), options.seed),
       optimizer_(makeOptimizer(scorer_, chance_, features_)),
-      workers_(numberOfWorkers(options.threads, std::min(options.maxIterations, largestBatch(options.maxIterations)))),
+      workers_(workers),
       workerStates_(workers_.size()),
       ofThreePointsAtFirst_(findable()) {
+  optimizer_.setWorkers(workers_);
   significance_.setFocalLengthPrior(makePrior(options));
   for (WorkerState& worker : workerStates_) worker.draws.resize(choice_.strategies().size());
   const auto isStaged = [](const Strategy& strategy) { return strategy.isStaged(); };
   if (std::any_of(choice_.strategies().begin(), choice_.strategies().end(), isStaged)) staged_.emplace(data_);
   mostIterations_ = mostIterations();
+  if (part_) workers_.beginTask([this] { featuresOfAll_.emplace(all_.arrays); });
+}
+
+HybridSearch::~HybridSearch() {
+  if (part_) workers_.dropTask();
 }
 
 // For the scorer's correspondences.
@@ -97,9 +109,9 @@ int HybridSearch::mostIterations() const {
 }
 
 int HybridSearch::leastIterations() const {
-  constexpr int kWithUnknownLens = 4;
-  const double least = static_cast<double>(options_.minIterations) * (lens_.isUnknown ? kWithUnknownLens : 1);
-  return static_cast<int>(std::min(least, static_cast<double>(mostIterations_)));
+  constexpr double kWithUnknownLens = 4, kWithKnownFocalLength = 0.5;
+  const double factor = lens_.isUnknown ? kWithUnknownLens : options_.knownFocalLengthPx ? kWithKnownFocalLength : 1;
+  return static_cast<int>(std::min(std::ceil(factor * options_.minIterations), static_cast<double>(mostIterations_)));
 }
 
 bool HybridSearch::lacksScale() const {
@@ -447,6 +459,26 @@ FinalPose HybridSearch::bestBeside(FinalPose best) const {
   return best;
 }
 
+// Where the focal length is known, little speaks against the mirrored pose of a flat scene: an optimum of its own, which the search may well
+// have found instead. (A focal length that such a scene determines leaves no doubt about the pose.)
+FinalPose HybridSearch::likelierOfMirrored(const FinalPose& pose, const LocalOptimizer& optimizer, const PoseScorer& scorer) {
+  constexpr double kSame = 4, kClear = 6;  // standard deviations, and log-likelihood
+  constexpr double kMostMissing = 0.5;     // of the inliers, in the other pose
+  mirrored_.reset();
+  if (knowledgeOf(options_) == FocalLengthKnowledge::None || !pose.isRegular) return pose;
+  const std::optional<QueryPose> start = mirroredPose(scorer, pose.pose);
+  if (!start) return pose;
+  const FinalPose other = optimizer.finish(optimizer.polish(optimizer.refine(*start)));
+  const ParameterVector change = changeOf(pose.pose, other.pose, estimated_);
+  if (!(change.dot(pose.covariance.ldlt().solve(change)) > kSame * kSame)) return pose;
+  const double gain = optimizer.logLikelihoodRatio(other, pose);
+  const bool isLikelier = gain > 0 && other.isRegular;
+  const FinalPose &better = isLikelier ? other : pose, &worse = isLikelier ? pose : other;
+  const Overlap inliers = overlap(scorer.inliers(better.pose), scorer.inliers(worse.pose));
+  if (std::abs(gain) < kClear && inliers.onlyFirst < kMostMissing * (inliers.onlyFirst + inliers.both)) mirrored_ = worse.pose;
+  return better;
+}
+
 FinalPose HybridSearch::polishedAtDistance(const FinalPose& pose, double factor) const {
   const QueryPose start = optimizer_.atDistance(pose.pose, factor);
   return optimizer_.finish(optimizer_.polish(optimizer_.settle(start, optimizer_.moreThanChance(start))));
@@ -491,6 +523,7 @@ FinalPose HybridSearch::finish(bool optimize) {
     findThresholds(best_);
   }
   FinalPose result = optimize ? polishBest() : optimizer_.finish(optimizer_.keep(best_.pose));
+  if (optimize) result = likelierOfMirrored(result, optimizer_, scorer_);
   if (part_)
     result = fitToAll(result, optimize);
   else
@@ -504,19 +537,14 @@ FinalPose HybridSearch::finish(bool optimize) {
 
 FinalPose HybridSearch::fitToAll(const FinalPose& ofPart, bool optimize) {
   PoseScorer scorer(all_.arrays, scorer_.bounds(), options_.scoring);
+  scorer.setWorkers(workers_);
   scorer.setThresholds(scorer_.thresholds());
-  std::optional<ChanceModel> chance;
-  std::optional<QueryFeatures> features;
-  workers_.forEach(2, [&](int i, std::size_t) {
-    if (i == 0)
-      chance.emplace(all_.arrays, scorer.bounds().rays, scorer.bounds().points);
-    else
-      features.emplace(all_.arrays);
-  });
-  LocalOptimizer optimizer = makeOptimizer(scorer, *chance, *features);
+  workers_.finishTask();
+  LocalOptimizer optimizer = makeOptimizer(scorer, chance_, *featuresOfAll_);
   optimizer.setWorkers(workers_);
   FinalPose result =
       optimizer.finish(optimize ? optimizer.polishNear(ofPart.pose, ofPart.rayWeight) : optimizer.keep(ofPart.pose));
+  if (mirrored_) result = likelierOfMirrored(result, optimizer, scorer);
   optimizer.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;
   scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});

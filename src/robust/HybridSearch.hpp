@@ -27,6 +27,9 @@ namespace robust {
 
 using Clock = std::chrono::steady_clock;
 
+// How many workers a search with these options can use.
+std::size_t workersFor(const sac::HybridRansacOptions& options);
+
 // A pose (in the normalized frame) with its evaluation.
 struct Model {
   QueryPose pose;
@@ -40,7 +43,12 @@ struct Model {
 class HybridSearch {
  public:
   // `part`: of all, those that are searched in, if they are many.
-  HybridSearch(SearchData all, std::optional<SearchData> part, const sac::HybridRansacOptions& options, Clock::time_point start);
+  HybridSearch(SearchData all, std::optional<SearchData> part, const sac::HybridRansacOptions& options, WorkerPool& workers,
+               Clock::time_point start);
+
+  ~HybridSearch();
+  HybridSearch(const HybridSearch&) = delete;
+  HybridSearch& operator=(const HybridSearch&) = delete;
 
   bool canStart() const { return !choice_.strategies().empty() || options_.initialPose; }
   // Rays enough, but no scale: they come from one rig camera.
@@ -50,6 +58,8 @@ class HybridSearch {
   void run();
   // Final optimization of the best model (or only its noise and information).
   FinalPose finish(bool optimize);
+  // Another pose that the same correspondences agree with, after `finish`: which of the two is right, they do not tell.
+  const std::optional<QueryPose>& mirrored() const { return mirrored_; }
   // Whether the best model, as `finish` left it, can be trusted.
   sac::FailureReason verdict(const FinalPose& final);
 
@@ -65,6 +75,7 @@ class HybridSearch {
   // Of the best model, over all correspondences, after `finish`.
   const PerKind<std::vector<char>>& inliers() const { return inliers_; }
   double score() const { return score_; }
+  WorkerPool& workers() const { return workers_; }
   Intrinsics estimated() const { return estimated_; }
   int iterations() const { return iterations_; }
   int localOptimizations() const { return localOptimizations_; }
@@ -122,6 +133,7 @@ class HybridSearch {
   FinalPose bestBeside(FinalPose best) const;
   FinalPose polishedAtDistance(const FinalPose& pose, double factor) const;
   bool isBetterDetermined(const FinalPose& pose, const FinalPose& than) const;
+  FinalPose likelierOfMirrored(const FinalPose& pose, const LocalOptimizer& optimizer, const PoseScorer& scorer);
   // Of log f.
   double deviationOf(const FinalPose& pose) const;
   void takeOutDistortion();
@@ -153,13 +165,15 @@ class HybridSearch {
   ChanceModel chance_;
   Shares chanceShares_;  // at all levels
   QueryFeatures features_;
+  std::optional<QueryFeatures> featuresOfAll_;  // if a part is searched in: set by a task of the workers
   Significance significance_;
   LocalOptimizer optimizer_;
   std::optional<StagedSampling> staged_;  // if a strategy needs it
-  WorkerPool workers_;
+  WorkerPool& workers_;
   std::vector<WorkerState> workerStates_;
 
   Model best_;
+  std::optional<QueryPose> mirrored_;
   PerKind<std::vector<char>> inliers_;
   double score_ = 0;
   std::optional<Candidate> bestCandidate_;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robust/ChosenArrays.hpp"
+#include "correspondences/arrayParts.hpp"
+#include "robust/GroupedArrays.hpp"
 #include "robust/toPlain.hpp"
 
 namespace hybridgv {
@@ -14,40 +15,72 @@ namespace {
 // Without a group that has nearly all the information in some direction, one step says nothing. (Of the square root of what is left.)
 constexpr double kLeastRest = 1e-3;
 
-using Members = std::vector<std::size_t>;
-
-std::vector<Members> membersOf(const std::vector<int>& groups) {
-  std::vector<Members> result;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    const auto group = static_cast<std::size_t>(groups[i]);
-    if (result.size() <= group) result.resize(group + 1);
-    result[group].push_back(i);
-  }
-  return result;
+std::size_t numberOf(const std::vector<int>& groups) {
+  return groups.empty() ? 0 : static_cast<std::size_t>(*std::max_element(groups.begin(), groups.end())) + 1;
 }
 
-// The sums of one group after the other.
-class GroupSums {
- public:
-  GroupSums(const LeastSquaresProblem& problem, const QueryPose& pose) : problem_(problem), pose_(toPlain(pose)) {}
-
-  NormalEquations ofPoints(const Members& members) {
-    NormalEquations sums;
-    problem_.kernels->addPoints(chosen_.points(problem_.points, members), pose_, problem_.pointLoss, sums);
-    return sums;
-  }
-
-  NormalEquations ofRays(const Members& members) {
-    NormalEquations sums;
-    problem_.kernels->addRays(chosen_.rays(problem_.rays, members), pose_, problem_.rayLoss, sums);
-    return sums;
-  }
-
- private:
-  const LeastSquaresProblem& problem_;
-  PlainPose pose_;
-  ChosenArrays chosen_;
+// A part of many correspondences of one kind, and what it adds to each group.
+template <class Arrays>
+struct PartOfGroups {
+  Arrays arrays;
+  const int* groups;
+  std::vector<NormalEquations> sums;
 };
+
+// So long that a group has some in each: the sums of few cost as much as those of many.
+template <class Arrays>
+std::vector<PartOfGroups<Arrays>> partsOf(const Arrays& arrays, const std::vector<int>& groups, bool takePart) {
+  constexpr std::size_t kLeast = 2048, kOfGroup = 64;
+  std::vector<PartOfGroups<Arrays>> parts;
+  if (!takePart) return parts;
+  const std::size_t count = numberOf(groups), length = std::max(kLeast, kOfGroup * count);
+  for (std::size_t begin = 0; begin < arrays.size; begin += length) {
+    const std::size_t end = std::min(begin + length, arrays.size);
+    parts.push_back({correspondences::part(arrays, begin, end), groups.data() + begin, std::vector<NormalEquations>(count)});
+  }
+  return parts;
+}
+
+// addGroup(arrays, sums) for the members of each group.
+template <class Arrays, class AddGroup>
+void addGroups(PartOfGroups<Arrays>& part, AddGroup addGroup) {
+  GroupedArrays<Arrays> grouped;
+  grouped.set(part.arrays, part.groups, part.sums.size());
+  for (std::size_t group = 0; group < part.sums.size(); ++group) addGroup(grouped.of(group), part.sums[group]);
+}
+
+template <class Arrays>
+void appendSums(const std::vector<PartOfGroups<Arrays>>& parts, std::vector<NormalEquations>& sums) {
+  if (parts.empty()) return;
+  const std::size_t first = sums.size();
+  sums.insert(sums.end(), parts[0].sums.begin(), parts[0].sums.end());
+  for (std::size_t p = 1; p < parts.size(); ++p)
+    for (std::size_t group = 0; group < parts[p].sums.size(); ++group) add(parts[p].sums[group], sums[first + group]);
+}
+
+// The sums of each group: of those of rays, then of those of points.
+std::vector<NormalEquations> sumsOfGroups(const LeastSquaresProblem& problem, const QueryPose& pose,
+                                          const JackknifeGroups& groups) {
+  const PlainPose plain = toPlain(pose);
+  auto rays = partsOf(problem.rays, groups.rays, problem.kinds.rays);
+  auto points = partsOf(problem.points, groups.points, problem.kinds.points);
+  const auto addRays = [&](const RayArrays& ofGroup, NormalEquations& sums) {
+    problem.kernels->addRays(ofGroup, plain, problem.rayLoss, sums);
+  };
+  const auto addPoints = [&](const PointArrays& ofGroup, NormalEquations& sums) {
+    problem.kernels->addPoints(ofGroup, plain, problem.pointLoss, sums);
+  };
+  forAll(problem.workers, rays.size() + points.size(), [&](std::size_t part) {
+    if (part < rays.size())
+      addGroups(rays[part], addRays);
+    else
+      addGroups(points[part - rays.size()], addPoints);
+  });
+  std::vector<NormalEquations> sums;
+  appendSums(rays, sums);
+  appendSums(points, sums);
+  return sums;
+}
 
 // The changes of the pose without each group.
 class Changes {
@@ -64,13 +97,13 @@ class Changes {
     if (!(part > 0)) return;                                          // no inliers
     FullParameterVector gradient = FullParameterVector::Zero();
     gradient.head(size) = estimatedGradient(group, estimated);
-    gradient -= information * fromMinimum_;
+    gradient -= information.lazyProduct(fromMinimum_);
     FullParameterVector change;
     if (part < kSmallPart)
       change = changeBySeries(information, gradient);
     else if (!changeBySolving(information, gradient, change))
       return;
-    sum_ += change * change.transpose();
+    sum_.noalias() += change * change.transpose();
     ++count_;
   }
   int count() const { return count_; }
@@ -79,8 +112,11 @@ class Changes {
  private:
   // (H - H_k)^-1 g = C (g + H_k C (g + H_k C (g + ..
   FullParameterVector changeBySeries(const FullParameterMatrix& information, const FullParameterVector& gradient) const {
-    FullParameterVector change = covariance_ * gradient;
-    for (int term = 0; term < kTerms; ++term) change = covariance_ * (gradient + information * change);
+    FullParameterVector change = covariance_.lazyProduct(gradient);
+    for (int term = 0; term < kTerms; ++term) {
+      const FullParameterVector next = gradient + information.lazyProduct(change);
+      change = covariance_.lazyProduct(next);
+    }
     return change;
   }
   bool changeBySolving(const FullParameterMatrix& information, const FullParameterVector& gradient,
@@ -92,7 +128,7 @@ class Changes {
   }
 
   static constexpr double kSmallPart = 0.2;
-  static constexpr int kTerms = 3;
+  static constexpr int kTerms = 2;
 
   FullParameterMatrix covariance_, root_, sum_ = FullParameterMatrix::Zero();
   FullParameterVector fromMinimum_;  // of all, to the pose
@@ -104,11 +140,7 @@ Changes changesWithoutGroups(const LeastSquaresProblem& problem, const QueryPose
   FullParameterVector gradient = FullParameterVector::Zero();
   gradient.head(gradientOfAll.size()) = gradientOfAll;
   Changes changes(covariance, gradient);
-  GroupSums sums(problem, pose);
-  if (problem.kinds.rays)
-    for (const Members& members : membersOf(groups.rays)) changes.add(sums.ofRays(members), problem.estimated);
-  if (problem.kinds.points)
-    for (const Members& members : membersOf(groups.points)) changes.add(sums.ofPoints(members), problem.estimated);
+  for (const NormalEquations& group : sumsOfGroups(problem, pose, groups)) changes.add(group, problem.estimated);
   return changes;
 }
 
@@ -119,21 +151,32 @@ double excessByChance(int groups, int parameters) {
   return root * (2 + root);
 }
 
+// Puts as many of `count` groups together as leave `most`.
+void divide(std::vector<int>& groups, int count, int most) {
+  const int together = (count + most - 1) / most;
+  for (int& group : groups) group /= together;
+}
+
 }  // namespace
 
 JackknifeGroups jackknifeGroups(const CorrespondenceArrays& arrays, const QueryFeatures& features) {
-  constexpr std::size_t kGroups = 64;
+  constexpr int kGroups = 64, kMostCameras = 1024;
   JackknifeGroups groups;
+  groups.rays.reserve(arrays.rays().size());
   for (const correspondences::RayMatch& ray : arrays.rays()) groups.rays.push_back(ray.camera);
-  std::vector<int> order(features.places().size(), -1);  // of the features of points
-  int count = 0;
-  for (std::size_t i = 0; i < arrays.points().size(); ++i) {
-    int& place = order[static_cast<std::size_t>(features.ofPoint(i))];
-    if (place < 0) place = count++;
-    groups.points.push_back(place);
+  divide(groups.rays, static_cast<int>(numberOf(groups.rays)), kMostCameras);
+  groups.points = correspondences::allIndices(arrays.points().size());
+  auto count = static_cast<int>(groups.points.size());
+  if (features.areShared()) {
+    std::vector<int> order(features.places().size(), -1);  // of the features of points
+    count = 0;
+    for (std::size_t i = 0; i < groups.points.size(); ++i) {
+      int& place = order[static_cast<std::size_t>(features.ofPoint(i))];
+      if (place < 0) place = count++;
+      groups.points[i] = place;
+    }
   }
-  const int together = (count + static_cast<int>(kGroups) - 1) / static_cast<int>(kGroups);
-  for (int& group : groups.points) group /= together;
+  divide(groups.points, count, kGroups);
   return groups;
 }
 

@@ -12,8 +12,9 @@
 namespace hybridgv {
 namespace robust {
 
-// Groups of correspondences that may share errors: the rays of a rig camera. The points of one feature of the query are a group, or, as they
-// are in random order, those of as many features together as leave 64 groups: more groups cost more and say little more.
+// Groups of correspondences that may share errors: the rays of a rig camera (with more than 1024, of several). The points of one feature of
+// the query are a group, or, as they are in random order, those of as many features together as leave 64 groups: more groups cost more and
+// say little more.
 JackknifeGroups jackknifeGroups(const CorrespondenceArrays& arrays, const QueryFeatures& features);
 
 // The covariance of a pose near the minimum of the problem, from the derivatives g and H there.

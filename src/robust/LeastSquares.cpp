@@ -37,22 +37,18 @@ int kernelParameter(Intrinsics estimated, int parameter) {
 }
 
 // Sums over many correspondences are those of parts, which are the same for any number of threads.
-constexpr std::size_t kPart = 2048;
-static_assert(kPart % correspondences::kPadding == 0, "a part begins where the kernels may begin");
+constexpr std::size_t kLeastPart = 256;
+static_assert(kLeastPart % correspondences::kPadding == 0, "a part begins where the kernels may begin");
 
-std::size_t numberOfParts(bool takePart, std::size_t size) { return takePart ? (size + kPart - 1) / kPart : 0; }
+std::size_t numberOfParts(bool takePart, std::size_t size) {
+  const std::size_t length = partLength(size, kLeastPart);
+  return takePart && size > 0 ? (size + length - 1) / length : 0;
+}
 
 template <class Arrays>
 Arrays partAt(const Arrays& arrays, std::size_t number) {
-  return correspondences::part(arrays, number * kPart, std::min((number + 1) * kPart, arrays.size));
-}
-
-void add(const NormalEquations& part, NormalEquations& sums) {
-  sums.cost += part.cost;
-  for (int row = 0; row < kMostParameters; ++row) {
-    sums.gradient[row] += part.gradient[row];
-    for (int column = row; column < kMostParameters; ++column) sums.hessian[row][column] += part.hessian[row][column];
-  }
+  const std::size_t length = partLength(arrays.size, kLeastPart);
+  return correspondences::part(arrays, number * length, std::min((number + 1) * length, arrays.size));
 }
 
 NormalEquations sumOfParts(const LeastSquaresProblem& problem, const PlainPose& pose, std::size_t ofPoints, std::size_t ofRays) {
@@ -63,10 +59,7 @@ NormalEquations sumOfParts(const LeastSquaresProblem& problem, const PlainPose& 
     else
       problem.kernels->addRays(partAt(problem.rays, number - ofPoints), pose, problem.rayLoss, parts[number]);
   };
-  if (problem.workers != nullptr)
-    problem.workers->forEach(static_cast<int>(parts.size()), [&](int i, std::size_t) { addPart(static_cast<std::size_t>(i)); });
-  else
-    for (std::size_t i = 0; i < parts.size(); ++i) addPart(i);
+  forAll(problem.workers, parts.size(), addPart);
   NormalEquations sums;
   for (const NormalEquations& part : parts) add(part, sums);
   return sums;
@@ -162,6 +155,13 @@ Vector<N> dampedStep(const Linearization<N>& at, double damping) {
   return -scale.cwiseProduct(matrix.llt().solve(scale.cwiseProduct(at.gradient)));
 }
 
+// So that the derivatives hold where it leads: along what the data hardly fix, a step can be as long as it likes.
+template <int N>
+bool isShort(const Vector<N>& step) {
+  constexpr double kShort = 0.1;  // of rotation, position (in the frame's unit) and log f
+  return step.template head<std::min(N, correspondences::kFocalPoseParameters)>().cwiseAbs().maxCoeff() < kShort;
+}
+
 template <int N>
 LeastSquaresResult minimizeFixed(const LeastSquaresProblem& problem, const QueryPose& start, const LeastSquaresOptions& options) {
   constexpr double kMaxDamping = 1e10, kMinDamping = 1e-12;
@@ -178,6 +178,12 @@ LeastSquaresResult minimizeFixed(const LeastSquaresProblem& problem, const Query
     ++result.iterations;
     const Vector<N> step = dampedStep(current, damping);
     const QueryPose candidate = moved<N>(result.pose, step, problem.estimated, options);
+    const bool changesLittle = -current.gradient.dot(step) <= options.minRelativeDecrease * current.cost;
+    if (changesLittle && isShort<N>(step)) {  // nobody needs to look where it leads
+      result.pose = candidate;
+      result.converged = true;
+      break;
+    }
     const Linearization<N> next = linearize<N>(problem, candidate);
     if (next.cost < current.cost && next.isFinite()) {
       result.converged = current.cost - next.cost <= options.minRelativeDecrease * current.cost;
@@ -185,8 +191,7 @@ LeastSquaresResult minimizeFixed(const LeastSquaresProblem& problem, const Query
       current = next;
       damping = std::max(damping / 10, kMinDamping);
     } else {
-      // No decrease although the step is a short one down the gradient: the minimum is reached to working precision.
-      result.converged = damping >= kMaxDamping || -current.gradient.dot(step) <= options.minRelativeDecrease * current.cost;
+      result.converged = damping >= kMaxDamping || changesLittle;
       damping *= 10;
     }
   }
@@ -196,6 +201,14 @@ LeastSquaresResult minimizeFixed(const LeastSquaresProblem& problem, const Query
 }
 
 }  // namespace
+
+void add(const NormalEquations& part, NormalEquations& sums) {
+  sums.cost += part.cost;
+  for (int row = 0; row < kMostParameters; ++row) {
+    sums.gradient[row] += part.gradient[row];
+    for (int column = row; column < kMostParameters; ++column) sums.hessian[row][column] += part.hessian[row][column];
+  }
+}
 
 double DistortionPrior::cost(double distortion) const {
   return scale > 0 ? factor * 2 * std::log1p(distortion * distortion / (scale * scale)) : 0;

@@ -82,6 +82,9 @@ ParameterMatrix information(const LeastSquaresProblem& problem, const QueryPose&
 // How the gradient changes with a shift of all image points along u and along v [1/px], the weights being kept.
 ParameterPair gradientByImageShift(const LeastSquaresProblem& problem, const QueryPose& pose);
 
+// Adds the kernels' sums over a part of the correspondences.
+void add(const NormalEquations& part, NormalEquations& sums);
+
 // Of the kernels' sums, what belongs to the parameters that are estimated.
 ParameterMatrix estimatedPart(const NormalEquations& sums, Intrinsics estimated);
 ParameterMatrix estimatedPart(const FullParameterMatrix& sums, Intrinsics estimated);

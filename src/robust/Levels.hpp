@@ -5,11 +5,11 @@
 #include <cstddef>
 
 #include "robust/PerKind.hpp"
+#include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
 namespace robust {
 
-constexpr int kLevels = 7;
 using LevelCounts = std::array<int, kLevels>;
 using LevelShares = std::array<double, kLevels>;
 using Shares = PerKind<LevelShares>;

@@ -11,6 +11,8 @@ namespace robust {
 // The leverage h = W J C J^T of every ray, C the inverse of the information: from 0 to 1. At the minimum without the ray, its error
 // is 1 / (1 - h) times as large (to first order). All 0 if the information has no inverse or rays do not take part.
 std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const QueryPose& pose);
+// The same where the information is known.
+std::vector<double> rayLeverages(const LeastSquaresProblem& problem, const QueryPose& pose, const ParameterMatrix& information);
 
 // J C J^T of every ray times the precision of its loss, for the covariance C of a pose that was found without it: the variance of its
 // error by the pose, in units of the noise's if the precision is the inverse of that.

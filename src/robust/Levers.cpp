@@ -40,19 +40,32 @@ correspondences::PaddedValues RayTreatment::narrowing() const {
   return isNeeded_ ? correspondences::PaddedValues(narrowing_, 1) : correspondences::PaddedValues();
 }
 
+static ParameterMatrix informationOf(LeastSquaresProblem problem, const QueryPose& pose, const RayTreatment& treatment) {
+  const correspondences::PaddedValues narrowing = treatment.narrowing();
+  problem.rays.narrowing = narrowing.pointer();
+  return information(problem, pose);
+}
+
 Levers leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment) {
+  ParameterMatrix information = informationOf(problem, pose, treatment);
+  return leversOf(problem, pose, std::move(treatment), std::move(information));
+}
+
+Levers leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment, ParameterMatrix information) {
   Levers result;
+  result.others = std::move(information);
   LeastSquaresProblem without = problem;
   for (std::vector<std::size_t> levers;; levers.clear()) {
     const correspondences::PaddedValues narrowing = treatment.narrowing();
     without.rays.narrowing = narrowing.pointer();
-    std::vector<double> leverages = rayLeverages(without, pose);
+    std::vector<double> leverages = rayLeverages(without, pose, result.others);
     for (std::size_t i = 0; i < leverages.size(); ++i)
       if (leverages[i] > kLever) levers.push_back(i);
     if (result.rays.empty()) result.leverages = std::move(leverages);
     if (levers.empty()) return result;
     treatment.refuse(levers);
     result.rays.insert(result.rays.end(), levers.begin(), levers.end());
+    result.others = informationOf(problem, pose, treatment);
   }
 }
 

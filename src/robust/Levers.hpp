@@ -32,11 +32,14 @@ class RayTreatment {
 struct Levers {
   std::vector<std::size_t> rays;
   std::vector<double> leverages;  // of all rays, while none of them is left out
+  ParameterMatrix others;         // information of the rest
 };
 
 // The rays of which the leverage (Leverage.hpp) exceeds one half. Levers that lie near to each other hide each other, so those that
-// stand out when the first ones are left out are among them.
+// stand out when the first ones are left out are among them. The problem's narrowing is that of the treatment.
 Levers leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment);
+// The same where the information, with all levers, is known.
+Levers leversOf(const LeastSquaresProblem& problem, const QueryPose& pose, RayTreatment treatment, ParameterMatrix information);
 
 }  // namespace robust
 }  // namespace hybridgv

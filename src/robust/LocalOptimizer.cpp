@@ -41,13 +41,11 @@ std::size_t countBelow(const std::vector<double>& squaredErrors, double threshol
   return static_cast<std::size_t>(std::count_if(squaredErrors.begin(), squaredErrors.end(), isBelow));
 }
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.); }
-
 // The variance of one kind's errors, of which `count` are known.
 struct Measured {
-  double variance;
-  std::size_t count;
-  double threshold, bound;
+  double variance = 0;
+  std::size_t count = 0;
+  double threshold = 0, bound = 0;
 
   double known() const { return std::min(static_cast<double>(count) / kEnough, 1.0); }
 };
@@ -67,12 +65,31 @@ Measured measured(const std::vector<double>& squaredErrors, double threshold, do
   return {median(inliers) / medianOfSquares, inliers.size(), threshold, bound};
 }
 
+// Squared errors of inliers.
+struct InlierSum {
+  std::size_t count = 0;
+  double sum = 0;
+};
+
+// In four sums, because one addition waits for the other.
+InlierSum sumBelow(const std::vector<double>& squaredErrors, double threshold) {
+  const double squared = threshold * threshold;
+  const double* const errors = squaredErrors.data();
+  const auto term = [=](std::size_t i) { return errors[i] < squared ? errors[i] : 0; };
+  double sums[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 <= squaredErrors.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += term(i + k);
+  for (; i < squaredErrors.size(); ++i) sums[0] += term(i);
+  return {countBelow(squaredErrors, threshold), sums[0] + sums[1] + sums[2] + sums[3]};
+}
+
 // Standard deviations of the inliers' errors at a fitted pose, which has taken up as many equations as it has parameters: their mean
 // square is too small by that. A kind of which there are few is measured together with the other one.
-PerKind<double> fittedDeviations(const SquaredErrors& inliers, int parameters) {
-  const PerKind<double> equations{static_cast<double>(inliers.rays.size()), 2 * static_cast<double>(inliers.points.size())};
+PerKind<double> fittedDeviations(const PerKind<InlierSum>& inliers, int parameters) {
+  const PerKind<double> equations{static_cast<double>(inliers.rays.count), 2 * static_cast<double>(inliers.points.count)};
   const double all = equations.rays + equations.points, excess = all / std::max(all - parameters, 1.0);
-  const PerKind<double> sums{sum(inliers.rays), sum(inliers.points)};
+  const PerKind<double> sums{inliers.rays.sum, inliers.points.sum};
   const double common = all > 0 ? (sums.rays + sums.points) / all : 0;
   const auto deviation = [&](double sumOfKind, double ofKind) {
     const double known = std::min(ofKind / kEnoughAtEnd, 1.0), own = ofKind > 0 ? sumOfKind / ofKind : 0;
@@ -120,6 +137,12 @@ LocalOptimizer::LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chan
       lens_(std::move(lens)),
       focalLengthPrior_(focalLengthPrior) {}
 
+void LocalOptimizer::setWorkers(WorkerPool& workers) {
+  constexpr std::size_t kMany = 1000;
+  const CorrespondenceArrays& arrays = scorer_.arrays();
+  workers_ = workers.size() > 1 && arrays.rays().size() + arrays.points().size() > kMany ? &workers : nullptr;
+}
+
 QueryPose LocalOptimizer::refine(const QueryPose& start) const {
   struct Stage {
     double rays, points;  // in thresholds
@@ -163,19 +186,29 @@ bool LocalOptimizer::focalLengthIsSure(const QueryPose& pose) const {
 
 bool LocalOptimizer::focalLengthIsDetermined(const FinalPose& final) const {
   const Kinds kinds = moreThanChance(final.pose);
-  const auto logLikelihoodAt = [&](const QueryPose& pose) {
-    const SquaredErrors errors = squaredErrors(pose, kinds, Reach::BeyondInfinity);
-    return final.rayWeight * final.noise.rays.logLikelihood(errors.rays) + final.noise.points.logLikelihood(errors.points) -
-           priorCost(pose) / 2;
-  };
   LeastSquaresProblem atFixedFocalLength = mixtureProblem(final.noise, kinds, final.rayWeight);
   atFixedFocalLength.estimated.focalLength = false;
-  const double best = logLikelihoodAt(final.pose);
+  const double best = logLikelihood(final.pose, kinds, final);
   const auto fallsAt = [&](double factor) {
     const QueryPose start = atDistance(final.pose, factor);
-    return best - logLikelihoodAt(minimize(atFixedFocalLength, start, limits({20, 1e-4})).pose) >= kClearLoss;
+    return best - logLikelihood(minimize(atFixedFocalLength, start, limits({20, 1e-4})).pose, kinds, final) >= kClearLoss;
   };
   return fallsAt(0.5) && fallsAt(2);
+}
+
+double LocalOptimizer::logLikelihood(const QueryPose& pose, const Kinds& kinds, const Optimum& noiseOf) const {
+  const SquaredErrors errors = squaredErrors(pose, kinds, Reach::BeyondInfinity);
+  return noiseOf.rayWeight * noiseOf.noise.rays.logLikelihood(errors.rays) + noiseOf.noise.points.logLikelihood(errors.points) -
+         priorCost(pose) / 2;
+}
+
+double LocalOptimizer::logLikelihoodRatio(const Optimum& a, const Optimum& b) const {
+  const auto byNoiseOf = [&](const Optimum& optimum) {
+    return logLikelihood(a.pose, kBothKinds, optimum) - logLikelihood(b.pose, kBothKinds, optimum);
+  };
+  const double byA = byNoiseOf(a), byB = byNoiseOf(b);
+  if (!(byA * byB > 0)) return 0;
+  return byA > 0 ? std::min(byA, byB) : std::max(byA, byB);
 }
 
 QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {
@@ -235,17 +268,23 @@ Kinds LocalOptimizer::moreThanChance(const QueryPose& pose) const {
 
 SquaredErrors LocalOptimizer::squaredErrors(const QueryPose& pose, const Kinds& kinds, Reach reach) const {
   SquaredErrors result;
-  if (kinds.rays)
-    result.rays = reach == Reach::Infinity ? scorer_.squaredRayErrors(pose) : scorer_.squaredRayErrorsBeyondInfinity(pose);
-  if (kinds.points) result.points = scorer_.squaredPointErrors(pose);
+  const auto ofRays = [&] {
+    if (kinds.rays)
+      result.rays = reach == Reach::Infinity ? scorer_.squaredRayErrors(pose) : scorer_.squaredRayErrorsBeyondInfinity(pose);
+  };
+  both(workers_, ofRays, [&] {
+    if (kinds.points) result.points = scorer_.squaredPointErrors(pose);
+  });
   return result;
 }
 
 Noise LocalOptimizer::noise(const SquaredErrors& errors, double benefitOfDoubt) const {
   const PerKind<double>& threshold = scorer_.thresholds();
   const PerKind<double>& bound = scorer_.bounds();
-  const Measured rays = measured(errors.rays, threshold.rays, bound.rays, kMedianOfOneSquare);
-  const Measured points = measured(errors.points, threshold.points, bound.points, kMedianOfTwoSquares);
+  Measured rays, points;
+  both(
+      workers_, [&] { rays = measured(errors.rays, threshold.rays, bound.rays, kMedianOfOneSquare); },
+      [&] { points = measured(errors.points, threshold.points, bound.points, kMedianOfTwoSquares); });
   // As far as there are points to hold the pose: without them a wrong ray that is believed does more harm than a right one that is not.
   const double held = std::min(static_cast<double>(points.count) / std::max(static_cast<double>(rays.count), 1.), 1.);
   return mixtures({deviation(rays, points, 1 / kPointsPerRays), deviation(points, rays, kPointsPerRays)}, errors,
@@ -270,7 +309,8 @@ Noise LocalOptimizer::finalNoise(const SquaredErrors& errors) const {
   constexpr int kRounds = 3;
   Noise result = noise(errors);
   for (int round = 0; round < kRounds; ++round) {
-    const SquaredErrors likelier{below(errors.rays, result.rays.boundary), below(errors.points, result.points.boundary)};
+    const PerKind<InlierSum> likelier{sumBelow(errors.rays, result.rays.boundary),
+                                      sumBelow(errors.points, result.points.boundary)};
     PerKind<double> deviations = fittedDeviations(likelier, estimated_.parameters());
     deviations.rays = std::max(deviations.rays, kLeastDeviation * scorer_.bounds().rays);
     deviations.points = std::max(deviations.points, kLeastDeviation * scorer_.bounds().points);
@@ -338,8 +378,9 @@ FinalPose LocalOptimizer::finish(const Optimum& optimum) const {
   FinalPose result{optimum};
   const PaddedValues narrowing = optimum.treatment.narrowing();
   const LeastSquaresProblem inliers = inliersOf(optimum);
-  findCovariance(narrowed(inliers, narrowing), result);
-  leaveOutLevers(inliers, optimum.treatment, result);
+  const Derivatives at = derivatives(narrowed(inliers, narrowing), result.pose);
+  findCovariance(narrowed(inliers, narrowing), at, result);
+  leaveOutLevers(inliers, optimum.treatment, at.information, result);
   return result;
 }
 
@@ -356,8 +397,7 @@ void LocalOptimizer::allowForPrincipalPoint(double deviation, FinalPose& result)
   result.isRegular = result.covariance.allFinite();
 }
 
-void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const {
-  const Derivatives at = derivatives(inliers, result.pose);
+void LocalOptimizer::findCovariance(const LeastSquaresProblem& inliers, const Derivatives& at, FinalPose& result) const {
   std::optional<SharedInformation> shared = sharedInformation(inliers, result.pose, features_, groups_);
   if (shared) correctNoise(at.information, *shared, result);
   result.isRegular = jackknifeCovariance(inliers, result.pose, groups_, at, shared, result.covariance);

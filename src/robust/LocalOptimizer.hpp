@@ -40,8 +40,8 @@ class LocalOptimizer {
   LocalOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features, double minFocalLength,
                  double maxFocalLength, Intrinsics estimated = {}, Lens lens = {}, FocalLengthPrior focalLengthPrior = {});
 
-  // From now on they share the work where there are many correspondences. They must outlive the optimizer.
-  void setWorkers(WorkerPool& workers) { workers_ = &workers; }
+  // From now on they share the work if there are many correspondences. They must outlive the optimizer.
+  void setWorkers(WorkerPool& workers);
 
   // From a minimal solution to a local optimum of the truncated squared errors, then of the likelihood. The truncation starts
   // wide, because a solution from noisy points is far from most viewing rays, and narrows down to the thresholds.
@@ -67,6 +67,8 @@ class LocalOptimizer {
   QueryPose atDistance(const QueryPose& pose, double factor) const;
   // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const QueryPose& pose) const;
+  // Log of the likelihood of a over that of b, for equal noise: that of the two for which it is nearer to 0; 0 if they differ in the sign.
+  double logLikelihoodRatio(const Optimum& a, const Optimum& b) const;
   // logEvidence for the distortion of this optimum of the likelihood; -infinity if its inliers do not fix the pose.
   double logEvidenceForDistortion(const Optimum& optimum) const;
   // From now on poses have no distortion.
@@ -83,6 +85,8 @@ class LocalOptimizer {
   Noise noise(const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   Noise finalNoise(const SquaredErrors& errors) const;
   double logLikelihood(const QueryPose& pose, const SquaredErrors& errors) const;
+  // For the noise of this optimum.
+  double logLikelihood(const QueryPose& pose, const Kinds& kinds, const Optimum& noiseOf) const;
   // For these standard deviations of the inliers' errors [px].
   Noise mixtures(PerKind<double> deviations, const SquaredErrors& errors, double benefitOfDoubt = 1) const;
   // The narrowing must outlive the problem.
@@ -93,7 +97,8 @@ class LocalOptimizer {
   Optimum keep(const QueryPose& pose, double rayWeight) const;
   // With the noise at this pose.
   Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment, double rayWeight) const;
-  void findCovariance(const LeastSquaresProblem& inliers, FinalPose& result) const;
+  // `at`: the derivatives of the inliers' errors.
+  void findCovariance(const LeastSquaresProblem& inliers, const Derivatives& at, FinalPose& result) const;
   RayNoise rayNoise(const Optimum& optimum) const;
   void allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information, FinalPose& result) const;
   void correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const;
@@ -126,7 +131,9 @@ class LocalOptimizer {
   };
   // Refuses levers that the other correspondences do not predict; the pose becomes the one without levers. Whether there are any.
   bool refuse(const std::vector<std::size_t>& levers, const Round& round, QueryPose& pose, RayTreatment& treatment) const;
-  void leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const;
+  // `information`: of all.
+  void leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, const ParameterMatrix& information,
+                      FinalPose& result) const;
   // -2 log of the likelihood of what is estimated of the camera, before anything is seen.
   double priorCost(const QueryPose& pose) const;
   LeastSquaresOptions limits(const Steps& steps) const;

@@ -129,16 +129,17 @@ bool LocalOptimizer::refuse(const std::vector<std::size_t>& levers, const Round&
 
 // Without the levers. If they are right, the pose changes by about as much as the others leave open; if they hold it at a wrong place,
 // by much more than the covariance says. So the change counts as one more error of the pose.
-void LocalOptimizer::leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment, FinalPose& result) const {
-  const std::vector<std::size_t> levers = leversOf(inliers, result.pose, treatment).rays;
-  treatment.refuse(levers);
-  const PaddedValues narrowing = treatment.narrowing();
-  const LeastSquaresProblem others = narrowed(inliers, narrowing);
+void LocalOptimizer::leaveOutLevers(const LeastSquaresProblem& inliers, RayTreatment treatment,
+                                    const ParameterMatrix& information, FinalPose& result) const {
+  const Levers levers = leversOf(inliers, result.pose, treatment, information);
   ParameterMatrix covariance;
-  const bool isRegular = invertInformation(information(others, result.pose), covariance);
+  const bool isRegular = invertInformation(levers.others, covariance);
   result.deviationWithoutLevers =
       isRegular ? std::sqrt(varianceOfLogFocalLength(covariance, estimated_)) : std::numeric_limits<double>::infinity();
-  if (levers.empty() || !isRegular || !result.isRegular) return;
+  if (levers.rays.empty() || !isRegular || !result.isRegular) return;
+  treatment.refuse(levers.rays);
+  const PaddedValues narrowing = treatment.narrowing();
+  const LeastSquaresProblem others = narrowed(inliers, narrowing);
   const ParameterVector change = changeOf(result.pose, minimize(others, result.pose, limits(kCoarse)).pose, estimated_);
   result.covariance += change * change.transpose();
 }

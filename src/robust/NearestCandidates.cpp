@@ -60,26 +60,53 @@ void Candidates::squaredDistancesFrom(const Eigen::Vector3d& position, double* r
 
 // Every number sinks through a sorted list as far as it must, two numbers at once through a list each. No branch depends on them: it
 // could not be foreseen.
-std::size_t Nearest::findFirst(const double* squaredDistances, std::size_t size, std::array<std::size_t, kFirst>& first) {
+static std::size_t findSmallest(const double* numbers, std::size_t size, std::array<double, Nearest::kFirst>& smallest) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  Pair smallest[kFirst];
-  for (Pair& pair : smallest) pair = Pair{kNone, kNone};
+  Pair lists[Nearest::kFirst];
+  for (Pair& pair : lists) pair = Pair{kNone, kNone};
   for (std::size_t k = 0; k < size; k += 2) {
-    Pair sinking = {withPlace(squaredDistances[k], k), k + 1 < size ? withPlace(squaredDistances[k + 1], k + 1) : kNone};
-    for (Pair& pair : smallest) {
+    Pair sinking = {numbers[k], k + 1 < size ? numbers[k + 1] : kNone};
+    for (Pair& pair : lists) {
       const Pair larger = math::larger(pair, sinking);
       pair = math::smaller(pair, sinking);
       sinking = larger;
     }
   }
-  std::array<double, 2 * kFirst> all;
-  for (std::size_t k = 0; k < kFirst; ++k) {
-    all[2 * k] = smallest[k][0];
-    all[2 * k + 1] = smallest[k][1];
+  std::array<double, 2 * Nearest::kFirst> all;
+  for (std::size_t k = 0; k < Nearest::kFirst; ++k) {
+    all[2 * k] = lists[k][0];
+    all[2 * k + 1] = lists[k][1];
   }
   std::sort(all.begin(), all.end());
+  std::copy(all.begin(), all.begin() + Nearest::kFirst, smallest.begin());
+  return std::min(size, Nearest::kFirst);
+}
+
+static constexpr std::size_t kGroup = 8;
+
+static double leastOfEight(const double* numbers) {
+  Pair least{numbers[0], numbers[1]};
+  for (std::size_t k = 2; k < kGroup; k += 2) least = math::smaller(least, Pair{numbers[k], numbers[k + 1]});
+  return std::min(least[0], least[1]);
+}
+
+// Of groups of numbers, those with the least smallest ones hold the smallest of all; nobody looks at the others again.
+std::size_t Nearest::findFirst(const double* squaredDistances, std::size_t size, std::array<std::size_t, kFirst>& first) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::array<double, Candidates::kMost> numbers;
+  for (std::size_t k = 0; k < size; ++k) numbers[k] = withPlace(squaredDistances[k], k);
+  const std::size_t groups = (size + kGroup - 1) / kGroup;
+  for (std::size_t k = size; k < groups * kGroup; ++k) numbers[k] = kNone;
+  std::array<double, Candidates::kMost / kGroup> leastOfGroup;
+  for (std::size_t g = 0; g < groups; ++g) leastOfGroup[g] = leastOfEight(numbers.data() + g * kGroup);
+  std::array<double, kFirst> smallest;
+  const std::size_t chosen = findSmallest(leastOfGroup.data(), groups, smallest);
+  std::array<double, kFirst * kGroup> left;
+  for (std::size_t k = 0; k < chosen; ++k)
+    std::copy_n(numbers.begin() + placeOf(smallest[k]) / kGroup * kGroup, kGroup, left.begin() + k * kGroup);
+  findSmallest(left.data(), chosen * kGroup, smallest);
   const std::size_t found = std::min(size, kFirst);
-  for (std::size_t k = 0; k < found; ++k) first[k] = placeOf(all[k]);
+  for (std::size_t k = 0; k < found; ++k) first[k] = placeOf(smallest[k]);
   return found;
 }
 

@@ -31,7 +31,7 @@ class Candidates {
 // from which they are looked for.
 class Nearest {
  public:
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kMost = 8, kFirst = kMost + 1;
 
   template <class Counts>
   Nearest(const Candidates& candidates, const Eigen::Vector3d& position, const Counts& counts) {
@@ -51,8 +51,6 @@ class Nearest {
   std::size_t operator[](std::size_t k) const { return index_[k]; }
 
  private:
-  static constexpr std::size_t kFirst = kMost + 1;
-
   // The places of the smallest ones, smallest first, and their number.
   static std::size_t findFirst(const double* squaredDistances, std::size_t size, std::array<std::size_t, kFirst>& first);
   void insert(double distance, std::size_t index);

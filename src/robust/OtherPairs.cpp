@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "math/RandomStream.hpp"
 #include "robust/NearestCandidates.hpp"
@@ -46,15 +47,16 @@ std::vector<Candidates> candidatesOf(const Matches& matches, Group group, Positi
 OtherPairs::Partners OtherPairs::noPartners(std::size_t size, std::size_t rounds) {
   Partners partners;
   partners.size = size;
-  partners.u.assign(rounds, std::vector<double>(padded(size), std::numeric_limits<double>::quiet_NaN()));
+  partners.length = padded(size);
+  partners.rounds = rounds;
+  partners.u.assign(rounds * partners.length, std::numeric_limits<double>::quiet_NaN());
   partners.v = partners.u;
   return partners;
 }
 
 void OtherPairs::setPartner(std::size_t i, std::size_t round, double u, double v, Partners& partners) {
-  partners.u[round][i] = u;
-  partners.v[round][i] = v;
-  ++partners.pairs;
+  partners.u[round * partners.length + i] = u;
+  partners.v[round * partners.length + i] = v;
 }
 
 OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed) {
@@ -62,16 +64,19 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
   const std::vector<ImagePoint> all = imagePoints(arrays);
   if (all.size() < 2) return result;
   math::RandomStream random(seed, kPartnerStream);
+  // Because correspondences are in random order, the one that comes so many places after an asker is as good as any.
   const auto pairUp = [&](std::size_t first, std::size_t count) {
     const std::size_t askers = std::min(count, kAskers);
     Partners partners = noPartners(askers, std::min(kPairs / std::max<std::size_t>(askers, 1), kMostPartners));
-    for (std::size_t round = 0; round < partners.u.size(); ++round)
-      for (std::size_t i = 0; i < askers; ++i) {
-        const auto drawn = static_cast<std::size_t>(random.below(static_cast<int>(all.size()) - 1));
-        const std::size_t other = drawn + (drawn >= first + i ? 1 : 0);  // not itself
+    for (std::size_t round = 0; round < partners.rounds; ++round) {
+      std::size_t other = (first + 1 + random.below(all.size() - 1)) % all.size();
+      for (std::size_t i = 0; i < askers; ++i, other = other + 1 < all.size() ? other + 1 : 0) {
         const bool isOwn = features.numbers()[other] == features.numbers()[first + i];
-        if (!isOwn) setPartner(i, round, all[other].u, all[other].v, partners);
+        if (isOwn) continue;
+        setPartner(i, round, all[other].u, all[other].v, partners);
+        ++partners.pairs;
       }
+    }
     return partners;
   };
   result.rays_ = pairUp(0, arrays.rays().size());
@@ -79,26 +84,36 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
   return result;
 }
 
-OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence) {
-  const auto pairUp = [&](const auto& matches, auto group, auto position, auto isSame) {
-    Partners partners = noPartners(askersOfNeighbours(matches.size()), Nearest::kMost);
-    const std::vector<Candidates> candidates = candidatesOf(matches, group, position);
-    for (std::size_t i = 0; i < partners.size; ++i) {
-      const Candidates& others = candidates[static_cast<std::size_t>(group(matches[i]))];
-      const Nearest nearest(others, position(matches[i]), [&](std::size_t j) { return !isSame(i, j); });
-      for (std::size_t k = 0; k < nearest.size(); ++k) setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
-    }
-    return partners;
+template <class Matches, class Group, class Position, class IsSame>
+OtherPairs::Partners OtherPairs::neighbours(const Matches& matches, Group group, Position position, IsSame isSame,
+                                            WorkerPool* workers) {
+  constexpr std::size_t kTogether = 64;  // fewer are not worth a second thread
+  Partners partners = noPartners(askersOfNeighbours(matches.size()), Nearest::kMost);
+  const std::vector<Candidates> candidates = candidatesOf(matches, group, position);
+  std::vector<std::size_t> found(partners.size);
+  const auto ask = [&](std::size_t i) {
+    const Candidates& others = candidates[static_cast<std::size_t>(group(matches[i]))];
+    const Nearest nearest(others, position(matches[i]), [&](std::size_t j) { return !isSame(i, j); });
+    for (std::size_t k = 0; k < nearest.size(); ++k) setPartner(i, k, matches[nearest[k]].u, matches[nearest[k]].v, partners);
+    found[i] = nearest.size();
   };
+  forParts(workers, partners.size, kTogether, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ask(i);
+  });
+  partners.pairs = std::accumulate(found.begin(), found.end(), std::size_t{0});
+  return partners;
+}
+
+OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence, WorkerPool* workers) {
   OtherPairs result(arrays);
-  result.rays_ = pairUp(
+  result.rays_ = neighbours(
       arrays.rays(), [](const RayMatch& ray) { return ray.camera; },
       [](const RayMatch& ray) -> const Eigen::Vector3d& { return ray.direction; },
-      [&](std::size_t i, std::size_t j) { return evidence.isSameRay(i, j); });
-  result.points_ = pairUp(
+      [&](std::size_t i, std::size_t j) { return evidence.isSameRay(i, j); }, workers);
+  result.points_ = neighbours(
       arrays.points(), [](const PointMatch&) { return 0; },
       [](const PointMatch& match) -> const Eigen::Vector3d& { return match.point; },
-      [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); });
+      [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); }, workers);
   return result;
 }
 
@@ -107,8 +122,9 @@ Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double
   const auto count = [&](const Partners& partners, double threshold, auto setErrors) {
     LevelShares shares{};
     if (partners.pairs == 0) return shares;
-    for (std::size_t round = 0; round < partners.u.size(); ++round) {
-      setErrors(partners.u[round].data(), partners.v[round].data());
+    for (std::size_t round = 0; round < partners.rounds; ++round) {
+      const std::size_t first = round * partners.length;
+      setErrors(partners.u.data() + first, partners.v.data() + first);
       const LevelCounts counts = countLevels(errors.data(), partners.size, threshold * threshold);
       for (std::size_t level = 0; level < counts.size(); ++level) shares[level] += counts[level];
     }

@@ -7,6 +7,7 @@
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Evidence.hpp"
 #include "robust/Levels.hpp"
+#include "robust/WorkerPool.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -24,20 +25,23 @@ class OtherPairs {
   // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
   // pairs have, but nothing agrees inside an object.
-  static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence);
+  static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence,
+                                 WorkerPool* workers = nullptr);
 
   // The shares at a pose in the arrays' frame. The arrays, which are in random order, must still exist.
   Shares shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const;
 
  private:
-  // The first `size` correspondences of a kind get another image point in each round; NaN is none.
+  // The first `size` correspondences of a kind get another image point in each round, one `length` after the other; NaN is none.
   struct Partners {
-    std::size_t size = 0, pairs = 0;
-    std::vector<std::vector<double>> u, v;
+    std::size_t size = 0, length = 0, rounds = 0, pairs = 0;
+    std::vector<double> u, v;
   };
   explicit OtherPairs(const correspondences::CorrespondenceArrays& arrays) : arrays_(&arrays) {}
   static Partners noPartners(std::size_t size, std::size_t rounds);
   static void setPartner(std::size_t i, std::size_t round, double u, double v, Partners& partners);
+  template <class Matches, class Group, class Position, class IsSame>
+  static Partners neighbours(const Matches& matches, Group group, Position position, IsSame isSame, WorkerPool* workers);
 
   const correspondences::CorrespondenceArrays* arrays_;
   Partners rays_, points_;

@@ -99,10 +99,13 @@ bool PoseScorer::addAll(const std::vector<Chunk>& chunks, double threshold, cons
 
 Evaluation PoseScorer::evaluate(const QueryPose& pose) const {
   const PlainPose plain = toPlain(pose);
-  Evaluation result;
+  Evaluation result, ofRays;
   NoTest test;
-  addAll(chunks_.points, thresholds_.points, plain, test, result);
-  addAll(chunks_.rays, thresholds_.rays, plain, test, result);
+  both(
+      workers_, [&] { addAll(chunks_.rays, thresholds_.rays, plain, test, ofRays); },
+      [&] { addAll(chunks_.points, thresholds_.points, plain, test, result); });
+  result.score += ofRays.score;
+  result.rays = ofRays.rays;
   result.complete = true;
   result.scale = scale();
   return result;
@@ -184,7 +187,11 @@ PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose) const {
     std::transform(errors.begin(), errors.end(), mask.begin(), [&](double e) { return e < threshold * threshold; });
     return mask;
   };
-  return {below(squaredRayErrors(pose), thresholds_.rays), below(squaredPointErrors(pose), thresholds_.points)};
+  PerKind<std::vector<char>> masks;
+  both(
+      workers_, [&] { masks.rays = below(squaredRayErrors(pose), thresholds_.rays); },
+      [&] { masks.points = below(squaredPointErrors(pose), thresholds_.points); });
+  return masks;
 }
 
 }  // namespace robust

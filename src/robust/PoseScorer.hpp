@@ -8,6 +8,7 @@
 #include "robust/Levels.hpp"
 #include "robust/PerKind.hpp"
 #include "robust/QueryPose.hpp"
+#include "robust/WorkerPool.hpp"
 #include "robust/kernels/Kernels.hpp"
 
 namespace hybridgv {
@@ -58,6 +59,9 @@ class PoseScorer {
   // The arrays must outlive the scorer and be in random order.
   PoseScorer(const CorrespondenceArrays& arrays, const PerKind<double>& bounds, sac::Scoring scoring);
 
+  // From now on they share the work of evaluate(pose) and inliers, which must not be called by them then.
+  void setWorkers(WorkerPool& workers) { workers_ = &workers; }
+
   // Over all correspondences.
   Evaluation evaluate(const QueryPose& pose) const;
   // The same, given up early where there is no hope. Of the two kinds that one comes first of which a wrong pose is sooner seen to
@@ -103,6 +107,7 @@ class PoseScorer {
   PerKind<double> bounds_, thresholds_;
   sac::Scoring scoring_;
   PerKind<std::vector<Chunk>> chunks_;
+  WorkerPool* workers_ = nullptr;
 };
 
 }  // namespace robust

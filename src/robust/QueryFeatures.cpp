@@ -35,10 +35,11 @@ void moveToFirst(const CorrespondenceArrays& arrays, std::vector<ImagePoint>& po
 }  // namespace
 
 std::vector<ImagePoint> imagePoints(const CorrespondenceArrays& arrays) {
-  std::vector<ImagePoint> result;
-  result.reserve(arrays.rays().size() + arrays.points().size());
-  for (const correspondences::RayMatch& ray : arrays.rays()) result.push_back({ray.u, ray.v});
-  for (const correspondences::PointMatch& point : arrays.points()) result.push_back({point.u, point.v});
+  const correspondences::RayArrays rays = arrays.rayArrays();
+  const correspondences::PointArrays points = arrays.pointArrays();
+  std::vector<ImagePoint> result(rays.size + points.size);
+  for (std::size_t i = 0; i < rays.size; ++i) result[i] = {rays.u[i], rays.v[i]};
+  for (std::size_t i = 0; i < points.size; ++i) result[rays.size + i] = {points.u[i], points.v[i]};
   return result;
 }
 

@@ -99,6 +99,19 @@ struct Places {
   std::vector<double> u, v;
 };
 
+// The first ones tell as much as many, because correspondences are in random order.
+bool seemSharp(const LeastSquaresProblem& inliers, Members rays, const CorrespondenceArrays& arrays, const QueryPose& pose,
+               double variance) {
+  constexpr std::size_t kEnough = 1000;
+  if (rays.size() <= kEnough) return false;
+  rays.resize(kEnough);
+  LeastSquaresProblem some = inliers;
+  some.points.size = std::min(some.points.size, kEnough);
+  InverseDepths depths = inverseDepthsOf(rays, arrays, pose, variance);
+  if (some.kinds.points) addInlierPoints(some, toPlain(pose), pose, depths);
+  return areSharp(depths, rays.size());
+}
+
 // Where rays would be seen at their likely depths, and a step beside that along their epipolar lines. Where one is not seen there, it stays
 // where it is, and the step is 0.
 struct LikelyPlaces {
@@ -161,6 +174,7 @@ std::optional<RaySlope> raySlope(const LeastSquaresProblem& inliers, const Corre
   const PlainPose plain = toPlain(pose);
   Members rays = inlierRays(inliers, plain);
   const double variance = kVariancesAlong * noise.deviation * noise.deviation;
+  if (seemSharp(inliers, rays, arrays, pose, variance)) return std::nullopt;
   InverseDepths depths = inverseDepthsOf(rays, arrays, pose, variance);
   if (rays.empty()) return std::nullopt;
   if (inliers.kinds.points) addInlierPoints(inliers, plain, pose, depths);

@@ -35,6 +35,8 @@ struct InlierCounts {
 
 class Sampler {
  public:
+  // Of nothing.
+  Sampler() = default;
   // cameraOfRay: the rig camera of each ray (any numbers). Correspondences are drawn from the front of rayOrder and pointOrder
   // first where growingPools is set: the pool of sample t holds the first N (t / kGrowth)^(1/m) of N, m the size of the sample.
   Sampler(const std::vector<int>& cameraOfRay, std::vector<int> rayOrder, std::vector<int> pointOrder, bool growingPools);
@@ -84,7 +86,7 @@ class Sampler {
   std::vector<std::vector<int>> raysOfCamera_;
   std::vector<int> cameraOfRay_;
   std::array<CameraList, kMaxSampleSize + 1> camerasWith_;  // by the least number of rays
-  bool growingPools_;
+  bool growingPools_ = false;
 };
 
 // Probability that `drawn` of `total`, without replacement, are all among `good` ones.

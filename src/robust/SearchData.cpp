@@ -1,6 +1,7 @@
 #include "robust/SearchData.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -27,6 +28,8 @@ std::vector<int> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t s
 // Positions in the arrays in order of decreasing weight; equal weights stay in their random order.
 std::vector<int> byQuality(const std::vector<double>& weights) {
   std::vector<int> order = correspondences::allIndices(weights.size());
+  const bool areEqual = std::adjacent_find(weights.begin(), weights.end(), std::not_equal_to<double>()) == weights.end();
+  if (areEqual) return order;
   const auto weightOf = [&](int i) { return weights[static_cast<std::size_t>(i)]; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weightOf(a) > weightOf(b); });
   return order;
@@ -44,29 +47,33 @@ Sampler makeSampler(const hybrid_pose::HybridAdapterBase& adapter, const Corresp
   return {cameras, std::move(rays), std::move(points), weightsDiffer};
 }
 
-CorrespondenceArrays readArrays(const hybrid_pose::HybridAdapterBase& adapter, const std::vector<int>& rays,
-                                const std::vector<int>& points) {
-  CorrespondenceArrays arrays(adapter, rays, points);
-  arrays.fixUnknownFocalLengths();
-  return arrays;
-}
+// A thousand of each kind are searched in.
+constexpr std::size_t kEnough = 1000;
+
+bool areMany(std::size_t rays, std::size_t points) { return rays > kEnough || points > kEnough; }
 
 // Places of at most `count` rays, in increasing order. The arrays are in random order, so the first ones are as good as any; but the rays
 // of one camera, which fix the scale, must not get lost among many of another. So half of them come from all cameras alike.
 std::vector<int> someRays(const CorrespondenceArrays& arrays, std::size_t count) {
   const std::size_t all = arrays.rays().size();
   if (all <= count) return correspondences::allIndices(all);
-  std::vector<int> chosen = correspondences::allIndices(count / 2), seen;
-  std::vector<std::pair<int, int>> others;  // how many of the same camera come before, place
+  std::vector<int> chosen = correspondences::allIndices(count / 2);
+  const std::size_t wanted = count - chosen.size();
+  std::vector<std::size_t> ofCamera, ofRank, ranks(all);  // rank: how many of the same camera come before
   for (std::size_t i = chosen.size(); i < all; ++i) {
     const auto camera = static_cast<std::size_t>(arrays.rays()[i].camera);
-    if (camera >= seen.size()) seen.resize(camera + 1, 0);
-    others.emplace_back(seen[camera]++, static_cast<int>(i));
+    if (camera >= ofCamera.size()) ofCamera.resize(camera + 1, 0);
+    ranks[i] = ofCamera[camera]++;
+    if (ranks[i] >= ofRank.size()) ofRank.resize(ranks[i] + 1, 0);
+    ++ofRank[ranks[i]];
   }
-  const auto end = others.begin() + static_cast<std::ptrdiff_t>(count - chosen.size());
-  std::nth_element(others.begin(), end, others.end());
-  std::transform(others.begin(), end, std::back_inserter(chosen), [](const std::pair<int, int>& other) { return other.second; });
-  std::sort(chosen.begin(), chosen.end());
+  std::size_t last = 0, before = 0;  // the last rank of which there is room for some, and how many there are of those before
+  while (before + ofRank[last] < wanted) before += ofRank[last++];
+  for (std::size_t i = chosen.size(), room = wanted - before; i < all; ++i)
+    if (ranks[i] < last || (ranks[i] == last && room > 0)) {
+      room -= ranks[i] == last;
+      chosen.push_back(static_cast<int>(i));
+    }
   return chosen;
 }
 
@@ -79,19 +86,30 @@ std::vector<int> at(const std::vector<int>& values, const std::vector<int>& plac
 
 }  // namespace
 
-SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options) {
+SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,
+                          WorkerPool& workers) {
   const correspondences::Counts counts = correspondences::readCounts(adapter);
-  std::vector<int> rays = shuffled(counts.rays, options.seed, kRayOrderStream);
-  std::vector<int> points = shuffled(counts.points, options.seed, kPointOrderStream);
-  CorrespondenceArrays arrays = readArrays(adapter, rays, points);
-  Sampler sampler = makeSampler(adapter, arrays, rays, points, options.sampling);
-  return {std::move(rays), std::move(points), std::move(arrays), std::move(sampler)};
+  const bool isLarge = areMany(counts.rays, counts.points);
+  const correspondences::ForEach byWorkers = [&](int count, const std::function<void(int)>& body) {
+    workers.forEach(count, [&](int i, std::size_t) { body(i); });
+  };
+  const correspondences::ForEach forEach = isLarge ? byWorkers : correspondences::oneByOne;
+  SearchData data;
+  forEach(2, [&](int kind) {
+    if (kind == 0)
+      data.rayIndices = shuffled(counts.rays, options.seed, kRayOrderStream);
+    else
+      data.pointIndices = shuffled(counts.points, options.seed, kPointOrderStream);
+  });
+  data.arrays = CorrespondenceArrays(adapter, data.rayIndices, data.pointIndices, forEach);
+  data.arrays.fixUnknownFocalLengths();
+  if (!isLarge) data.sampler = makeSampler(adapter, data.arrays, data.rayIndices, data.pointIndices, options.sampling);
+  return data;
 }
 
 std::optional<SearchData> partOf(const SearchData& all, const hybrid_pose::HybridAdapterBase& adapter,
                                  const sac::HybridRansacOptions& options) {
-  constexpr std::size_t kEnough = 1000;
-  if (all.rayIndices.size() <= kEnough && all.pointIndices.size() <= kEnough) return std::nullopt;
+  if (!areMany(all.rayIndices.size(), all.pointIndices.size())) return std::nullopt;
   const std::vector<int> rays = someRays(all.arrays, kEnough);
   return partAt(rays, correspondences::allIndices(std::min(all.pointIndices.size(), kEnough)), all, adapter, options);
 }

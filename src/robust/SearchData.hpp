@@ -8,6 +8,7 @@
 #include "hybridgv/hybrid_pose/HybridAdapterBase.hpp"
 #include "hybridgv/sac/HybridRansacOptions.hpp"
 #include "robust/Sampler.hpp"
+#include "robust/WorkerPool.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -15,11 +16,13 @@ namespace robust {
 struct SearchData {
   std::vector<int> rayIndices, pointIndices;  // the adapter's indices of the arrays' entries
   correspondences::CorrespondenceArrays arrays;
-  Sampler sampler;
+  Sampler sampler;  // draws nothing from many of which only a part is searched in
 };
 
-// Reads everything that the adapter has. Throws std::invalid_argument for data or weights that are not finite.
-SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options);
+// Reads everything that the adapter has; many correspondences by all workers. Throws std::invalid_argument for data or weights that are not
+// finite.
+SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,
+                          WorkerPool& workers);
 
 // Of all, those at these places of the arrays. The normalization stays that of all.
 SearchData partAt(const std::vector<int>& rays, const std::vector<int>& points, const SearchData& all,

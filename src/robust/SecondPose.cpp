@@ -48,7 +48,8 @@ std::optional<SecondPose> findSecondPose(const HybridSearch& search, const hybri
   ofSecond.maxReprojectionErrorPx = search.bounds().points;
   ofSecond.maxIterations = samples(found / all, search.iterations(), options);
   ofSecond.minIterations = std::min(options.minIterations, ofSecond.maxIterations);
-  HybridSearch second(partAt(rays, points, search.searchedData(), adapter, options), std::nullopt, ofSecond, start);
+  HybridSearch second(partAt(rays, points, search.searchedData(), adapter, options), std::nullopt, ofSecond, search.workers(),
+                      start);
   if (!second.canStart()) return std::nullopt;
   second.considerPromisingOnly();
   second.run();

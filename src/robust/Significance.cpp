@@ -85,11 +85,12 @@ std::vector<char> below(const std::vector<double>& squaredErrors, double thresho
 }  // namespace
 
 Significance::Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler,
-                           const QueryFeatures& features, int parameters, std::uint64_t seed)
+                           const QueryFeatures& features, WorkerPool& workers, int parameters, std::uint64_t seed)
     : scorer_(scorer),
       chance_(chance),
       sampler_(sampler),
       features_(features),
+      workers_(workers),
       parameters_(parameters),
       seed_(seed),
       evidence_(scorer.arrays(), features) {}
@@ -123,7 +124,7 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_);
   shares = largest(shares, sharesOf(*randomPairs_));
   if (!areLessLikelyThan(logFalseAlarms)) return false;
-  if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_);
+  if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_, &workers_);
   shares = largest(shares, sharesOf(*neighbours_));
   return areLessLikelyThan(kLogFalseAlarmsOfNeighbours);
 }

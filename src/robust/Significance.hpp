@@ -11,6 +11,7 @@
 #include "robust/OtherPairs.hpp"
 #include "robust/PoseScorer.hpp"
 #include "robust/Sampler.hpp"
+#include "robust/WorkerPool.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -31,7 +32,7 @@ class Significance {
  public:
   // What is given by reference must outlive the object. `parameters`: of a pose, as they are fitted to its inliers.
   Significance(const PoseScorer& scorer, const ChanceModel& chance, const Sampler& sampler, const QueryFeatures& features,
-               int parameters, std::uint64_t seed);
+               WorkerPool& workers, int parameters, std::uint64_t seed);
 
   // As above, from now on.
   void setParameters(int parameters) { parameters_ = parameters; }
@@ -70,6 +71,7 @@ class Significance {
   const ChanceModel& chance_;
   const Sampler& sampler_;
   const QueryFeatures& features_;
+  WorkerPool& workers_;
   int parameters_;
   std::uint64_t seed_;
   double logSamples_ = 0;

@@ -1,6 +1,7 @@
 #include "robust/WorkerPool.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace hybridgv {
@@ -8,6 +9,16 @@ namespace robust {
 namespace {
 
 constexpr int kMostPerCore = 4;
+
+// To wake a thread that sleeps takes longer than many a loop, and the next loop as a rule follows soon. So a thread first waits awake,
+// but no longer than this.
+constexpr std::chrono::microseconds kAwake{50};
+
+template <class Condition>
+void waitAwake(Condition isMet) {
+  const auto end = std::chrono::steady_clock::now() + kAwake;
+  while (!isMet() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+}
 
 std::thread startThread(std::function<void()> function) { return std::thread(std::move(function)); }
 
@@ -41,19 +52,24 @@ WorkerPool::~WorkerPool() {
 }
 
 void WorkerPool::forEach(int count, const Body& body) {
+  if (threads_.empty() || count <= 1) {
+    for (int i = 0; i < count; ++i) body(i, 0);
+    return;
+  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     body_ = &body;
     count_ = count;
     next_ = 0;
-    busy_ = static_cast<int>(threads_.size());
     ++round_;
   }
   start_.notify_all();
   takeAll(0);
+  waitAwake([this] { return busy_ == 0; });
   {
     std::unique_lock<std::mutex> lock(mutex_);
     done_.wait(lock, [this] { return busy_ == 0; });
+    body_ = nullptr;
   }
   throwKeptException();
 }
@@ -84,18 +100,73 @@ void WorkerPool::throwKeptException() {
   std::rethrow_exception(exception);
 }
 
-void WorkerPool::work(std::size_t worker) {
-  unsigned seen = 0;
-  for (;;) {
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      start_.wait(lock, [&] { return stop_ || round_ != seen; });
-      if (stop_) return;
-      seen = round_;
-    }
-    takeAll(worker);
+void WorkerPool::beginTask(std::function<void()> task) {
+  {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (--busy_ == 0) done_.notify_one();
+    task_ = std::move(task);
+    hasTask_ = true;
+  }
+  start_.notify_one();
+}
+
+void WorkerPool::finishTask() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (task_) runTask(lock);
+  done_.wait(lock, [this] { return !taskIsRunning_; });
+  if (const std::exception_ptr exception = std::exchange(taskException_, nullptr)) std::rethrow_exception(exception);
+}
+
+void WorkerPool::dropTask() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  task_ = nullptr;
+  hasTask_ = false;
+  done_.wait(lock, [this] { return !taskIsRunning_; });
+  taskException_ = nullptr;
+}
+
+void WorkerPool::runTask(std::unique_lock<std::mutex>& lock) {
+  const std::function<void()> task = std::exchange(task_, nullptr);
+  hasTask_ = false;
+  taskIsRunning_ = true;
+  lock.unlock();
+  std::exception_ptr exception;
+  try {
+    task();
+  } catch (...) {
+    exception = std::current_exception();
+  }
+  lock.lock();
+  taskException_ = exception;
+  taskIsRunning_ = false;
+  done_.notify_one();
+}
+
+void WorkerPool::waitForWork(unsigned seen, std::unique_lock<std::mutex>& lock) {
+  waitAwake([&] { return stop_ || round_ != seen || hasTask_; });
+  lock.lock();
+  start_.wait(lock, [&] { return stop_ || round_ != seen || hasTask_; });
+}
+
+void WorkerPool::work(std::size_t worker) {
+  std::unique_lock<std::mutex> lock(mutex_, std::defer_lock);
+  for (unsigned seen = 0;;) {
+    waitForWork(seen, lock);
+    if (stop_) return;
+    if (round_ != seen) {
+      seen = round_;
+      if (body_ == nullptr) {  // too late
+        lock.unlock();
+        continue;
+      }
+      ++busy_;
+      lock.unlock();
+      takeAll(worker);
+      lock.lock();
+      if (--busy_ == 0) done_.notify_one();
+    } else {
+      runTask(lock);
+    }
+    lock.unlock();
   }
 }
 

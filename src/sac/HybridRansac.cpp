@@ -75,8 +75,9 @@ double deviationOfK1(const HybridRansacResult& result, const std::vector<double>
 
 // After the masks.
 void setLens(const robust::HybridSearch& search, const robust::FinalPose& final, HybridRansacResult& result) {
-  const std::vector<double> radii = inlierRadii(search.data(), result);
   result.distortion = final.pose.distortion;
+  const bool isPinhole = result.distortion == 0 && !search.estimated().radial;
+  const std::vector<double> radii = isPinhole ? std::vector<double>() : inlierRadii(search.data(), result);
   const SimpleRadial model = toSimpleRadial(result.pose.focalLength, result.distortion, radii);
   result.simpleRadialFocalLength = model.focalLength;
   result.simpleRadialK1 = model.k1;
@@ -121,6 +122,15 @@ void setSecondPose(const std::optional<robust::SecondPose>& second, const robust
   result.failureReason = FailureReason::AmbiguousPose;
 }
 
+// All of them, or nearly so, agree with both.
+void setMirroredPose(const robust::HybridSearch& search, HybridRansacResult& result) {
+  if (!search.mirrored()) return;
+  result.secondPose = search.data().arrays.normalization().undo(*search.mirrored());
+  result.secondPoseSupport = 1;
+  result.success = false;
+  result.failureReason = FailureReason::AmbiguousPose;
+}
+
 }  // namespace
 
 HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, const HybridRansacOptions& options) {
@@ -129,9 +139,10 @@ HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, c
   HybridRansacResult result;
   result.covariance.fill(std::numeric_limits<double>::infinity());
 
-  robust::SearchData data = robust::readSearchData(adapter, options);
+  robust::WorkerPool workers(robust::workersFor(options));
+  robust::SearchData data = robust::readSearchData(adapter, options, workers);
   std::optional<robust::SearchData> part = robust::partOf(data, adapter, options);
-  robust::HybridSearch search(std::move(data), std::move(part), options, start);
+  robust::HybridSearch search(std::move(data), std::move(part), options, workers, start);
   result.inliers2d2d.resize(search.data().rayIndices.size());
   result.inliers2d3d.resize(search.data().pointIndices.size());
   if (!search.canStart()) {
@@ -140,6 +151,7 @@ HybridRansacResult hybridRansac(const hybrid_pose::HybridAdapterBase& adapter, c
     search.run();
     setStatistics(search, result);
     if (search.hasModel()) setPose(search, options, result);
+    if (result.success) setMirroredPose(search, result);
     if (result.success) setSecondPose(robust::findSecondPose(search, adapter, options, start), search, result);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -85,10 +85,13 @@ void HybridRansacOptions::check() const {
             "between -0.7 and 0.3");
   require(threads >= 0, "threads", threads, "0 (all cores) or positive");
   if (solvers.empty() && !initialPose) throwInvalid("options.solvers", "empty, and there is no initialPose");
-  for (const SolverPrior& entry : solvers) requireListed(allSolvers(), "solvers", entry.solver);
-  for (const SolverPrior& entry : solvers)
-    require(positiveFinite(entry.prior), ("solvers[" + std::string(hybridgv::toString(entry.solver)) + "].prior").c_str(),
-            entry.prior, "positive and finite");
+  const std::vector<Solver> known = allSolvers();
+  for (const SolverPrior& entry : solvers) {
+    requireListed(known, "solvers", entry.solver);
+    if (!positiveFinite(entry.prior))
+      require(false, ("solvers[" + std::string(hybridgv::toString(entry.solver)) + "].prior").c_str(), entry.prior,
+              "positive and finite");
+  }
   for (auto entry = solvers.begin(); entry != solvers.end(); ++entry)
     for (auto other = solvers.begin(); other != entry; ++other)
       if (other->solver == entry->solver)

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "HybridScene.hpp"
 
@@ -128,6 +130,45 @@ TEST(Jackknife, IsThatOfTheMinimumAlsoBesideIt) {
     ASSERT_TRUE(jackknifeCovariance(problem, pose, groups, derivatives(problem, pose), std::nullopt, beside));
     EXPECT_NEAR(std::sqrt(beside(6, 6) / there(6, 6)), 1, 0.3);
   }
+}
+
+TEST(Jackknife, ThreadsShareManyCorrespondencesWithTheSameBits) {
+  test::Random random(test::testSeed(), 9620);
+  test::SceneOptions options;
+  options.rays = 6000;
+  options.points = 5000;
+  options.imageNoise = kNoise;
+  const test::HybridScene scene = test::makeHybridScene(random, options);
+  const correspondences::CorrespondenceArrays arrays = arraysOf(scene);
+  LeastSquaresProblem problem = problemOf(arrays);
+  const QueryPose truth = arrays.normalization().apply(scene.truth);
+  const Derivatives at = derivatives(problem, truth);
+  const JackknifeGroups groups = jackknifeGroups(arrays, QueryFeatures(arrays));
+  ParameterMatrix alone;
+  ASSERT_TRUE(jackknifeCovariance(problem, truth, groups, at, std::nullopt, alone));
+  for (const std::size_t threads : {1, 2, 5}) {
+    WorkerPool workers(threads);
+    problem.workers = &workers;
+    ParameterMatrix shared;
+    ASSERT_TRUE(jackknifeCovariance(problem, truth, groups, at, std::nullopt, shared));
+    EXPECT_EQ(shared, alone) << threads;
+  }
+}
+
+TEST(Jackknife, GroupsOfManyCamerasAreBoundedAndKeepACameraTogether) {
+  test::Random random(test::testSeed(), 9621);
+  test::SceneOptions options;
+  options.rays = 6000;
+  options.points = 100;
+  options.cameras = 2500;
+  const correspondences::CorrespondenceArrays arrays = arraysOf(test::makeHybridScene(random, options));
+  const JackknifeGroups groups = jackknifeGroups(arrays, QueryFeatures(arrays));
+  std::map<int, int> ofCamera;
+  for (std::size_t i = 0; i < arrays.rays().size(); ++i) {
+    EXPECT_LT(groups.rays[i], 1024);
+    EXPECT_EQ(ofCamera.emplace(arrays.rays()[i].camera, groups.rays[i]).first->second, groups.rays[i]);
+  }
+  EXPECT_LT(*std::max_element(groups.points.begin(), groups.points.end()), 64);
 }
 
 TEST(Jackknife, HasNoResultIfTheInformationHasNoInverse) {

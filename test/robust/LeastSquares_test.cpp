@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -127,6 +128,35 @@ TEST(LeastSquares, AKindThatDoesNotTakePartDoesNotMatter) {
 }
 
 // Sums over many correspondences are made of parts: they are those over all, and the same for any number of threads.
+// Points near the optical axis hardly tell the focal length: a step that changes next to nothing of the cost can be many powers of e long.
+TEST(LeastSquares, NoLongStepIsTakenUnseenBecauseItChangesLittle) {
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    test::Random random(test::testSeed() + i, 148);
+    test::SceneOptions options;
+    options.rays = 0;
+    options.points = 30;
+    test::HybridScene scene = test::makeHybridScene(random, options);
+    for (std::size_t k = 0; k < scene.points.size(); ++k) {
+      const Eigen::Vector3d inQuery(1e-6 * random.normal(), 1e-6 * random.normal(), random.uniform(10, 30));
+      scene.points[k] = scene.truth.position + scene.truth.rotation * inQuery;
+      scene.image2d3d[k] = {random.normal(), random.normal(), 1};
+    }
+    const CorrespondenceArrays arrays(scene.adapter(), {}, correspondences::allIndices(30));
+    const QueryPose start = arrays.normalization().applyTo(QueryPose(scene.truth));
+    for (const double least : {1e-8, 1e-4, 1e-2, 0.05}) {
+      LeastSquaresOptions limits;
+      limits.minRelativeDecrease = least;
+      const LeastSquaresProblem problem =
+          makeProblem(arrays, {Loss::Quadratic, 1, 1}, {Loss::Quadratic, 1, 1}, kUnknownFocalLength);
+      const LeastSquaresResult result = minimize(problem, start, limits);
+      EXPECT_TRUE(std::isfinite(result.pose.focalLength)) << i;
+      EXPECT_TRUE(result.pose.position.allFinite()) << i;
+      const double cost = minimize(problem, result.pose, {0}).cost, before = minimize(problem, start, {0}).cost;
+      EXPECT_LE(cost, (1 + 2 * least) * before) << i;
+    }
+  }
+}
+
 TEST(LeastSquares, ThreadsShareManyCorrespondencesWithTheSameBits) {
   test::Random random(test::testSeed(), 147);
   const Data data(random, 5003, 2049, 1);

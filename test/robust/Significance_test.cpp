@@ -48,7 +48,8 @@ class SignificanceTest : public testing::Test {
   Sampler sampler{scene.cameras, correspondences::allIndices(kRays), correspondences::allIndices(kPoints), false};
   ChanceModel chance{arrays, 4, 6};
   QueryFeatures features{arrays};
-  Significance significance{scorer, chance, sampler, features, 7, 1};
+  WorkerPool workers{1};
+  Significance significance{scorer, chance, sampler, features, workers, 7, 1};
 };
 
 TEST_F(SignificanceTest, GrowsWithTheInliersOfEitherKind) {
@@ -90,7 +91,8 @@ TEST_F(SignificanceTest, RaysOfOneCameraAloneDoNotFixTheScale) {
                                                         correspondences::allIndices(kPoints));
   const PoseScorer oneCameraScorer(oneCamera, {4, 6}, sac::Scoring::Msac);
   const QueryFeatures oneCameraFeatures(oneCamera);
-  Significance ofOneCamera(oneCameraScorer, chance, sampler, oneCameraFeatures, 7, 1);
+  WorkerPool oneWorker(1);
+  Significance ofOneCamera(oneCameraScorer, chance, sampler, oneCameraFeatures, oneWorker, 7, 1);
   const QueryPose pose = oneCamera.normalization().apply(scene.truth);
   const PerKind<std::vector<char>> masks = oneCameraScorer.inliers(pose);
   EXPECT_NE(ofOneCamera.verdict(pose, oneCameraScorer.evaluate(pose), sampler.count(masks.rays, masks.points), true),

@@ -28,7 +28,8 @@ class Staged : public testing::Test {
     options.points = 0;
     options.outlierShareRays = outliers;
     scene_ = test::makeHybridScene(random, options);
-    data_.emplace(readSearchData(scene_.adapter(), {}));
+    WorkerPool workers(1);
+    data_.emplace(readSearchData(scene_.adapter(), {}, workers));
   }
 
   int solve(const StagedSampling& staged, std::uint64_t number, StagedSampling::OwnScores& scores) {

@@ -86,6 +86,78 @@ TEST(WorkerPool, AnExceptionInAnyThreadReachesTheCaller) {
   expectEveryIndexOnce(pool, 1000);
 }
 
+TEST(WorkerPool, ATaskIsDoneOnceBesideTheLoops) {
+  for (const std::size_t workers : {1, 2, 4}) {
+    WorkerPool pool(workers);
+    for (int round = 0; round < 200; ++round) {
+      std::atomic<int> done{0};
+      pool.beginTask([&] { ++done; });
+      if (round % 2 == 0) expectEveryIndexOnce(pool, 20);
+      pool.finishTask();
+      EXPECT_EQ(done, 1);
+    }
+    pool.finishTask();  // there is none
+  }
+}
+
+TEST(WorkerPool, ALoopDoesNotWaitForTheTask) {
+  WorkerPool pool(2);
+  std::atomic<bool> loopIsDone{false}, waited{false};
+  pool.beginTask([&] {
+    while (!loopIsDone) std::this_thread::yield();
+    waited = true;
+  });
+  expectEveryIndexOnce(pool, 50);
+  loopIsDone = true;
+  pool.finishTask();
+  EXPECT_TRUE(waited);
+}
+
+TEST(WorkerPool, AnExceptionOfTheTaskIsThrownWhereItIsFinished) {
+  for (const std::size_t workers : {1, 3}) {
+    WorkerPool pool(workers);
+    for (int round = 0; round < 50; ++round) {
+      pool.beginTask([] { throw std::bad_alloc(); });
+      expectEveryIndexOnce(pool, 20);
+      EXPECT_THROW(pool.finishTask(), std::bad_alloc);
+      pool.finishTask();
+    }
+  }
+}
+
+TEST(WorkerPool, ADroppedTaskIsNotUnderWayAfterwards) {
+  for (const std::size_t workers : {1, 2}) {
+    WorkerPool pool(workers);
+    for (int round = 0; round < 200; ++round) {
+      std::atomic<int> running{0};
+      pool.beginTask([&] {
+        ++running;
+        std::this_thread::yield();
+        --running;
+      });
+      pool.dropTask();
+      EXPECT_EQ(running, 0);
+    }
+    pool.beginTask([] { throw std::bad_alloc(); });
+    pool.dropTask();
+    pool.finishTask();
+  }
+}
+
+TEST(WorkerPool, PartsCoverTheWholeAndBeginAtMultiples) {
+  WorkerPool pool(3);
+  for (robust::WorkerPool* workers : {static_cast<WorkerPool*>(nullptr), &pool})
+    for (const std::size_t size : {0, 1, 63, 64, 65, 1000, 20000}) {
+      std::vector<std::atomic<int>> taken(size);
+      robust::forParts(workers, size, 64, [&](std::size_t begin, std::size_t end) {
+        EXPECT_EQ(begin % 64, 0u);
+        EXPECT_LT(begin, end);
+        for (std::size_t i = begin; i < end; ++i) ++taken[i];
+      });
+      for (const auto& times : taken) EXPECT_EQ(times, 1);
+    }
+}
+
 TEST(WorkerPool, NumberOfWorkersHasABound) {
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   EXPECT_EQ(numberOfWorkers(0, 1000), cores);

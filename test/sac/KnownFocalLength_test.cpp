@@ -172,6 +172,60 @@ TEST(FocalLengthPrior, WrongOneGivesWay) {
   }
 }
 
+HybridScene flatScene(Random& random, double halfSize, int ofEachKind, double outliers) {
+  SceneOptions options = noisy(ofEachKind, ofEachKind, outliers);
+  options.coplanar = true;
+  options.halfSize = halfSize;
+  options.imageNoise = 2;
+  return makeHybridScene(random, options);
+}
+
+constexpr double kRightAngle = 0.17;
+
+// A small flat object looks the same in a second pose (MirroredPose), as far as perspective does not tell.
+TEST(KnownFocalLength, AFlatObjectFarAwayIsNoSuccessInTheWrongOfItsTwoPoses) {
+  int successes = 0, wrong = 0, ambiguous = 0, oneIsRight = 0;
+  for (std::uint64_t i = 0; i < 150; ++i) {
+    Random random(testSeed() + i, 970);
+    const HybridScene scene = flatScene(random, i % 2 == 0 ? 1 : 0.5, i % 3 == 0 ? 20 : 60, 0.3);
+    const HybridRansacResult result = run(scene, i);
+    const bool isRight = angleBetween(result.pose, scene.truth) < kRightAngle;
+    successes += result.success;
+    wrong += result.success && !isRight;
+    if (result.failureReason != sac::FailureReason::AmbiguousPose) continue;
+    ++ambiguous;
+    ASSERT_TRUE(result.secondPose);
+    EXPECT_GT(result.secondPoseSupport, 0.8);
+    oneIsRight += isRight || angleBetween(*result.secondPose, scene.truth) < kRightAngle;
+  }
+  EXPECT_LE(wrong, 3) << "a quarter, if the second pose is not looked for";
+  EXPECT_GT(successes, 30);
+  EXPECT_GT(ambiguous, 50);
+  EXPECT_GT(oneIsRight, 0.85 * ambiguous);
+}
+
+TEST(KnownFocalLength, AFlatObjectThatFillsTheImageIsASuccess) {
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    Random random(testSeed() + i, 971);
+    const HybridScene scene = flatScene(random, 5, 60, 0.3);
+    const HybridRansacResult result = run(scene, i);
+    EXPECT_TRUE(result.success) << "scene " << i << ": " << toString(result.failureReason);
+    EXPECT_LT(angleBetween(result.pose, scene.truth), kRightAngle) << "scene " << i;
+    EXPECT_FALSE(result.secondPose);
+  }
+}
+
+TEST(KnownFocalLength, WhichOfTheTwoPosesOfAFlatObjectIsLikelierDoesNotDependOnTheSeed) {
+  int others = 0, all = 0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    Random random(testSeed() + i, 972);
+    const HybridScene scene = flatScene(random, 1, 60, 0.3);
+    const HybridRansacResult first = run(scene, 0);
+    for (std::uint64_t seed = 1; seed < 5; ++seed, ++all) others += angleBetween(run(scene, seed).pose, first.pose) > kRightAngle;
+  }
+  EXPECT_LE(others, 0.05 * all);
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hybridgv

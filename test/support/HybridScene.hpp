@@ -15,6 +15,7 @@ struct SceneOptions {
   double outlierShareRays = 0;                       // these get a random image point
   double outlierSharePoints = 0;                     // these get a random image point, too
   bool coplanar = false;                             // all scene points in one plane
+  double halfSize = 5;                               // of the box they are in, 15 to 25 away from the query
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // moves the whole scene
   double scale = 1;                                  // scales the whole scene
 };
@@ -60,7 +61,7 @@ inline HybridScene makeHybridScene(Random& random, const SceneOptions& options) 
   const Eigen::Vector3d planeNormal = random.direction();
   const auto visiblePoint = [&](const FocalPose& other) {
     for (;;) {
-      Eigen::Vector3d point = random.vector(-5, 5);
+      Eigen::Vector3d point = random.vector(-options.halfSize, options.halfSize);
       if (options.coplanar) point -= planeNormal.dot(point) * planeNormal;
       if (isVisible(query, point) && isVisible(other, point)) return point;
     }

@@ -44,8 +44,12 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
   /// after a success, among the correspondences that are no inliers, if these are at least 0.8 times as many. One with 0.8 of the
   /// support is seldom missed (5 % for samples of three points, more often if rays alone agree with it). Empty without one. Under
   /// QueryCamera::Radial its focal length belongs to a distortion of its own, which is not reported.
+  ///
+  /// Or, where the focal length is known, exactly or roughly, the mirrored pose of a flat object far away, with which the same correspondences
+  /// agree, if it is about as likely (log-likelihoods that differ by less than 6).
   std::optional<FocalPose> secondPose;
-  /// The correspondences that only secondPose explains, over those that only `pose` explains. Above 0.8 there is no success.
+  /// The correspondences that only secondPose explains, over those that only `pose` explains; 1 for a mirrored pose. Above 0.8 there is no
+  /// success.
   double secondPoseSupport = 0;
 
   /// Of the division model, undistorted = (u, v) / (1 + distortion (u^2 + v^2)) [1/px^2], to which pose.focalLength belongs; see

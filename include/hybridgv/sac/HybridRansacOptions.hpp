@@ -54,7 +54,8 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// Stop when the probability to have missed a sample of inliers only, over all solvers together, is below 1 minus this.
   double successProbability = 0.9999;
   /// Samples drawn at least (if maxIterations allows): noisy data have local optima that look good enough to stop at, and a few
-  /// more samples are cheap. Four times as many where the distortion is unknown, with which there are more of these.
+  /// more samples are cheap. Four times as many where the distortion is unknown, with which there are more of these, and half as many
+  /// where the focal length is known, without which there are most.
   int minIterations = 24;
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
@@ -124,7 +125,8 @@ enum class FailureReason {
   NoModel,                ///< no sample gave a pose with inliers
   InliersMayBeChance,     ///< wrong poses of random data have as many inliers
   UndeterminedPose,       ///< the inliers do not fix all seven parameters; without points, rays of one rig camera never do
-  /// other correspondences agree with another pose, and are more than four fifths as many (HybridRansacResult::secondPose)
+  /// other correspondences agree with another pose, and are more than four fifths as many, or the same ones agree with a mirrored pose
+  /// (HybridRansacResult::secondPose)
   AmbiguousPose,
 };
 

@@ -64,6 +64,9 @@ struct ImageShiftSums {
 
 constexpr std::size_t kRayRow = 1 + kMostParameters + 3, kPointRow = 1 + 2 * kMostParameters + 2;
 
+// Thresholds T, T/2, T/4, ..
+constexpr int kLevels = 7;
+
 // One instruction set's versions. Ranges [begin, end) begin at a multiple of correspondences::kPadding and end at one or at the arrays' size.
 struct Kernels {
   // Squared errors; infinite as reprojectionError and sampsonError are. `errors` has room for the padding.
@@ -87,6 +90,8 @@ struct Kernels {
   // need not be finite.
   void (*rayRows)(const RayArrays&, const PlainPose&, const KindLoss&, double* columns);
   void (*pointRows)(const PointArrays&, const PlainPose&, const KindLoss&, double* columns);
+  // How many squared errors are below the square of each threshold; `squaredThreshold`: T^2. No padding is needed.
+  void (*countLevels)(const double* squaredErrors, std::size_t size, double squaredThreshold, int counts[kLevels]);
 };
 
 enum class CameraModel { Pinhole, CalibratedPinhole, Radial };

@@ -26,7 +26,8 @@ constexpr Kernels makeKernels() {
           &addRayShifts<Camera>,
           &rayLeverages<Camera>,
           &rayRows,
-          &pointRows};
+          &pointRows,
+          &countLevels};
 }
 
 extern const Kernels kPinholeKernels, kCalibratedPinholeKernels, kRadialKernels;

@@ -78,6 +78,27 @@ static Score scoreRays(const RayArrays& rays, const PlainPose& plainPose, double
   return result.score();
 }
 
+// Without branches: which errors are below which threshold cannot be foreseen.
+static void countLevels(const double* squaredErrors, std::size_t size, double squaredThreshold, int counts[kLevels]) {
+  double thresholds[kLevels];
+  for (double& threshold : thresholds) {
+    threshold = squaredThreshold;
+    squaredThreshold /= 4;
+  }
+  DoubleMask below[kLevels] = {};  // a lane counts down
+  std::size_t i = 0;
+  for (; i + kWidth <= size; i += kWidth) {
+    const Doubles errors = load<Doubles>(squaredErrors + i);
+    for (int level = 0; level < kLevels; ++level) below[level] += errors < thresholds[level];
+  }
+  for (int level = 0; level < kLevels; ++level) {
+    int count = 0;
+    for (int lane = 0; lane < kWidth; ++lane) count -= static_cast<int>(below[level][lane]);
+    for (std::size_t k = i; k < size; ++k) count += squaredErrors[k] < thresholds[level];
+    counts[level] = count;
+  }
+}
+
 }  // namespace HYBRIDGV_INSTRUCTION_SET
 }  // namespace robust
 }  // namespace hybridgv
