@@ -361,21 +361,24 @@ void HybridSearch::setBest(const Model& model, bool isSignificant) {
 
 // What the search expects from now on: of samples, and of poses worth keeping.
 void HybridSearch::learnFrom(const Model& model) {
-  const InlierCounts inliers = inlierCounts(model.pose);
+  // A right correspondence beyond the threshold, 2.5 deviations of the noise, makes a sample good, too.
+  constexpr double kWider = 1.5;
+  const InlierCounts usable = inlierCounts(model.pose, kWider);
   std::vector<double> probabilities;
   for (const Strategy& strategy : choice_.strategies())
-    probabilities.push_back((1 - kGivenUp) * strategy.yield() * data_.sampler.allInlierProbability(strategy.size(), inliers));
+    probabilities.push_back((1 - kGivenUp) * strategy.yield() * data_.sampler.allInlierProbability(strategy.size(), usable));
   choice_.setAllInlierProbabilities(probabilities);
 
   const auto share = [](int part, int all) { return all > 0 ? std::min(kUnoptimizedShare * part / all, 0.9) : 0; };
+  const InlierCounts inliers = inlierCounts(model.pose);
   const PerKind<double> good{share(inliers.rays, data_.sampler.numberRays()),
                              share(inliers.points, data_.sampler.numberPoints())};
   const PerKind<double> scale = scorer_.scale();
   expectation_ = Expectation(good, {chance_.rayShare(scale.rays), chance_.pointShare(scale.points)});
 }
 
-InlierCounts HybridSearch::inlierCounts(const QueryPose& pose) const {
-  const PerKind<std::vector<char>> inliers = scorer_.inliers(pose);
+InlierCounts HybridSearch::inlierCounts(const QueryPose& pose, double factor) const {
+  const PerKind<std::vector<char>> inliers = scorer_.inliers(pose, factor);
   return data_.sampler.count(inliers.rays, inliers.points);
 }
 

@@ -149,7 +149,8 @@ class HybridSearch {
   // With `optimize`, for all of them; masks, score, noise and covariance are those of all anyway.
   FinalPose fitToAll(const FinalPose& ofPart, bool optimize);
   void judgeAll(const PoseScorer& scorer);
-  InlierCounts inlierCounts(const QueryPose& pose) const;
+  // Within the thresholds times `factor`.
+  InlierCounts inlierCounts(const QueryPose& pose, double factor = 1) const;
 
   const sac::HybridRansacOptions& options_;
   Clock::time_point start_;

@@ -1,6 +1,7 @@
 // What is believed of the shares of inliers before a pose is found.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace hybridgv {
@@ -22,11 +23,9 @@ class InlierBelief {
   std::vector<double> successProbabilities(const std::vector<int>& failures) const;
 
  private:
-  struct Cell {
-    double prior;
-    std::vector<double> success, logFailure;  // of each kind of sample
-  };
-  std::vector<Cell> cells_;
+  std::size_t kinds_;
+  std::vector<double> logPrior_;              // of each cell of the grid
+  std::vector<double> success_, logFailure_;  // of each cell, and in it of each kind of sample
 };
 
 }  // namespace robust

@@ -181,7 +181,9 @@ std::vector<double> PoseScorer::squaredPointErrors(const QueryPose& pose) const 
   return errorsOf(points_, pose, &Kernels::squaredPointErrors);
 }
 
-PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose) const {
+PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose, double factor) const {
+  const PerKind<double> thresholds{std::min(factor * thresholds_.rays, bounds_.rays),
+                                   std::min(factor * thresholds_.points, bounds_.points)};
   const auto below = [](const std::vector<double>& errors, double threshold) {
     std::vector<char> mask(errors.size());
     std::transform(errors.begin(), errors.end(), mask.begin(), [&](double e) { return e < threshold * threshold; });
@@ -189,8 +191,8 @@ PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose) const {
   };
   PerKind<std::vector<char>> masks;
   both(
-      workers_, [&] { masks.rays = below(squaredRayErrors(pose), thresholds_.rays); },
-      [&] { masks.points = below(squaredPointErrors(pose), thresholds_.points); });
+      workers_, [&] { masks.rays = below(squaredRayErrors(pose), thresholds.rays); },
+      [&] { masks.points = below(squaredPointErrors(pose), thresholds.points); });
   return masks;
 }
 

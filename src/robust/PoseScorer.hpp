@@ -72,8 +72,8 @@ class PoseScorer {
   // Over all correspondences, with the thresholds at which the inliers exceed most clearly what chance gives: bounds / 2^k of each
   // kind. `chance`: shares of a wrong pose's inliers; `errors`: room for those of both kinds.
   Evaluation evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance, PerKind<std::vector<double>>& errors) const;
-  // Masks of the correspondences whose error is below their kind's threshold.
-  PerKind<std::vector<char>> inliers(const QueryPose& pose) const;
+  // Masks of the correspondences whose error is below their kind's threshold times `factor`, but at most its bound.
+  PerKind<std::vector<char>> inliers(const QueryPose& pose, double factor = 1) const;
   // Errors of one kind at a pose, infinite for those that are no inliers.
   std::vector<double> squaredRayErrors(const QueryPose& pose) const;
   std::vector<double> squaredPointErrors(const QueryPose& pose) const;
