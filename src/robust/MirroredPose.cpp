@@ -39,8 +39,8 @@ void addInlierRays(const PoseScorer& scorer, const std::vector<double>& squaredE
   }
 }
 
-// At least three positions.
-std::optional<QueryPose> mirroredAt(const Positions& positions, const QueryPose& pose) {
+// At least three positions. None if by their distances from the plane, which change sides, errors become larger than this.
+std::optional<QueryPose> mirroredAt(const Positions& positions, const QueryPose& pose, double largestError) {
   constexpr double kLeastAngle = 1e-3;  // between the plane's normal and the direction in which it is seen
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& position : positions) centre += position;
@@ -50,7 +50,10 @@ std::optional<QueryPose> mirroredAt(const Positions& positions, const QueryPose&
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(scatter);
   const Eigen::Vector3d normal = solver.eigenvectors().col(0), direction = (centre - pose.position).normalized();
-  if (!normal.allFinite() || !(normal.cross(direction).norm() > kLeastAngle)) return std::nullopt;
+  const double angle = normal.cross(direction).norm(), distance = (centre - pose.position).norm();
+  const double relief = std::sqrt(std::max(solver.eigenvalues()[0], 0.) / static_cast<double>(positions.size()));
+  if (!normal.allFinite() || !(angle > kLeastAngle)) return std::nullopt;
+  if (!(2 * relief * angle / distance * pose.focalLength < largestError)) return std::nullopt;
   const auto reflection = [](const Eigen::Vector3d& axis) -> Eigen::Matrix3d {
     return Eigen::Matrix3d::Identity() - 2 * axis * axis.transpose();
   };
@@ -65,12 +68,13 @@ std::optional<QueryPose> mirroredAt(const Positions& positions, const QueryPose&
 
 std::optional<QueryPose> mirroredPose(const PoseScorer& scorer, const QueryPose& pose) {
   constexpr std::size_t kEnoughPoints = 6, kFewest = 3;
-  const std::vector<double> points = scorer.squaredPointErrors(pose), rays = scorer.squaredRayErrors(pose);
+  const std::vector<double> points = scorer.squaredPointErrors(pose);
   Positions positions = inlierPoints(scorer, points);
-  if (positions.size() < kEnoughPoints) addInlierRays(scorer, rays, pose, positions);
+  if (positions.size() < kEnoughPoints) addInlierRays(scorer, scorer.squaredRayErrors(pose), pose, positions);
   if (positions.size() < kFewest) return std::nullopt;
-  const std::optional<QueryPose> result = mirroredAt(positions, pose);
+  const std::optional<QueryPose> result = mirroredAt(positions, pose, std::max(scorer.bounds().points, scorer.bounds().rays));
   if (!result) return std::nullopt;
+  const std::vector<double> rays = scorer.squaredRayErrors(pose);
   const std::size_t inliers = countBelow(points, scorer.thresholds().points) + countBelow(rays, scorer.thresholds().rays);
   const std::size_t near = countBelow(scorer.squaredPointErrors(*result), scorer.bounds().points) +
                            countBelow(scorer.squaredRayErrors(*result), scorer.bounds().rays);
