@@ -17,8 +17,8 @@ using correspondences::padded;
 using correspondences::PointMatch;
 using correspondences::RayMatch;
 
-// So many correspondences of a kind get random partners, so many partners each: a share of one in a thousand is still seen.
-constexpr std::size_t kAskers = 256, kPairs = 2048, kMostPartners = 64;
+// So many correspondences of a kind get random partners, at most so many partners each.
+constexpr std::size_t kAskers = 256, kMostPartners = 64;
 // With neighbours. Those of one object agree or disagree together, so that a share is only as exact as the number of askers; and the
 // more correspondences there are, the smaller an excess over the share counts as no accident.
 constexpr std::size_t kFewAskers = 32, kOfAll = 4;
@@ -59,7 +59,8 @@ void OtherPairs::setPartner(std::size_t i, std::size_t round, double u, double v
   partners.v[round * partners.length + i] = v;
 }
 
-OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed) {
+OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed,
+                              std::size_t pairs) {
   OtherPairs result(arrays);
   const std::vector<ImagePoint> all = imagePoints(arrays);
   if (all.size() < 2) return result;
@@ -67,7 +68,7 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
   // Because correspondences are in random order, the one that comes so many places after an asker is as good as any.
   const auto pairUp = [&](std::size_t first, std::size_t count) {
     const std::size_t askers = std::min(count, kAskers);
-    Partners partners = noPartners(askers, std::min(kPairs / std::max<std::size_t>(askers, 1), kMostPartners));
+    Partners partners = noPartners(askers, std::min(pairs / std::max<std::size_t>(askers, 1), kMostPartners));
     for (std::size_t round = 0; round < partners.rounds; ++round) {
       std::size_t other = (first + 1 + random.below(all.size() - 1)) % all.size();
       for (std::size_t i = 0; i < askers; ++i, other = other + 1 < all.size() ? other + 1 : 0) {
@@ -115,6 +116,17 @@ OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Ev
       [](const PointMatch& match) -> const Eigen::Vector3d& { return match.point; },
       [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); }, workers);
   return result;
+}
+
+// Four standard deviations, and what that lacks where few pairs agree.
+Shares OtherPairs::mostOf(const Shares& shares) const {
+  const auto most = [](const LevelShares& ofKind, std::size_t pairs) {
+    LevelShares result = ofKind;
+    const double count = static_cast<double>(std::max<std::size_t>(pairs, 1));
+    for (double& share : result) share = std::min(share + 4 * std::sqrt(share * (1 - share) / count) + 8 / count, 1.);
+    return result;
+  };
+  return {most(shares.rays, rays_.pairs), most(shares.points, points_.pairs)};
 }
 
 Shares OtherPairs::shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const {

@@ -19,15 +19,19 @@ namespace robust {
 // pairs that have an error below a threshold is counted.
 class OtherPairs {
  public:
-  // Random partners: image points of either kind. The own feature's may be drawn, but is no partner.
-  static OtherPairs random(const correspondences::CorrespondenceArrays& arrays, const QueryFeatures& features,
-                           std::uint64_t seed);
+  // So many of each kind: a share of one in a thousand is still seen.
+  static constexpr std::size_t kPairs = 2048;
+  // Random partners: image points of either kind. The own feature's may be drawn, but is no partner. `pairs` of each kind, or nearly.
+  static OtherPairs random(const correspondences::CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed,
+                           std::size_t pairs = kPairs);
   // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
   // pairs have, but nothing agrees inside an object.
   static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence,
                                  WorkerPool* workers = nullptr);
 
+  // What the shares of many more such pairs would hardly exceed, by those of these.
+  Shares mostOf(const Shares& shares) const;
   // The shares at a pose in the arrays' frame. The arrays, which are in random order, must still exist.
   Shares shares(const PlainPose& pose, double maxEpipolarError, double maxReprojectionError) const;
 

@@ -20,6 +20,9 @@ constexpr double kLogFalseAlarmsOfNeighbours = -2;
 // every way, and up to half of them are inliers there.
 constexpr double kLogFalseAlarmsOfRays = -25;
 
+constexpr std::size_t kFewPairs = OtherPairs::kPairs / 4;
+constexpr int kMany = 64;
+
 Shares largest(const Shares& a, const Shares& b) {
   Shares result;
   for (std::size_t level = 0; level < kLevels; ++level) {
@@ -121,12 +124,21 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
     return isLessLikely(clearest, shares, logBound) || isLessLikelyAtAnyLevels(errors, shares, logBound);
   };
   if (!areLessLikelyThan(logFalseAlarms)) return false;
+  const Shares ofEvenPoints = shares;
+  const auto areWithPairs = [&](const Shares& ofRandomPairs) {
+    shares = largest(ofEvenPoints, ofRandomPairs);
+    if (!areLessLikelyThan(logFalseAlarms)) return false;
+    if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_, &workers_);
+    shares = largest(shares, sharesOf(*neighbours_));
+    return areLessLikelyThan(kLogFalseAlarmsOfNeighbours);
+  };
+  // Of many correspondences, mostly a few pairs tell.
+  if (sampler_.numberRays() + sampler_.numberPoints() >= kMany) {
+    if (!fewPairs_) fewPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_, kFewPairs);
+    if (areWithPairs(fewPairs_->mostOf(sharesOf(*fewPairs_)))) return true;
+  }
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_);
-  shares = largest(shares, sharesOf(*randomPairs_));
-  if (!areLessLikelyThan(logFalseAlarms)) return false;
-  if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_, &workers_);
-  shares = largest(shares, sharesOf(*neighbours_));
-  return areLessLikelyThan(kLogFalseAlarmsOfNeighbours);
+  return areWithPairs(sharesOf(*randomPairs_));
 }
 
 // A pose that is right is so at many choices of levels, as a rule also at this one.

@@ -78,7 +78,7 @@ class Significance {
   FocalLengthPrior focalLengthPrior_;
   Evidence evidence_;
   // Made when they are first needed.
-  std::optional<OtherPairs> randomPairs_, neighbours_;
+  std::optional<OtherPairs> fewPairs_, randomPairs_, neighbours_;
 };
 
 }  // namespace robust

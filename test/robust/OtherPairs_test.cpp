@@ -51,6 +51,28 @@ TEST(OtherPairs, RandomPairsOfEvenlySpreadPointsAgreeAsOftenAsTheAreaSays) {
   EXPECT_NEAR(shares.points[1], expected / 4, 0.5 * expected / 4);
 }
 
+// What a few pairs are taken to say is hardly ever less than what many say; and not much more.
+TEST(OtherPairs, MostOfAFewIsABoundForMany) {
+  int exceeded = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    HybridScene scene = sceneOf(300);
+    Random random(testSeed() + 9303 + seed);
+    for (auto* image : {&scene.image2d2d, &scene.image2d3d})
+      for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(random.uniform(-300, 300), random.uniform(-300, 300), 1);
+    const Data data(scene);
+    const OtherPairs few = OtherPairs::random(data.arrays, data.features, seed, OtherPairs::kPairs / 4);
+    const Shares most = few.mostOf(few.shares(data.truth, 20, 60));
+    const Shares many = OtherPairs::random(data.arrays, data.features, seed + 1).shares(data.truth, 20, 60);
+    for (std::size_t level = 0; level < many.points.size(); ++level, all += 2) {
+      exceeded += (many.points[level] > most.points[level]) + (many.rays[level] > most.rays[level]);
+      EXPECT_LE(most.points[level], 1);
+    }
+    EXPECT_LT(most.points[0], many.points[0] + 0.1);
+    EXPECT_LT(most.rays[0], many.rays[0] + 0.15);
+  }
+  EXPECT_LE(exceeded, all / 100);
+}
+
 HybridScene sceneWithPointsListedTenTimes() {
   HybridScene scene = sceneOf(20);
   const HybridScene once = scene;
