@@ -78,7 +78,8 @@ TEST(MirroredPose, ASceneWithReliefHasNone) {
     test::SceneOptions options;
     options.rays = options.points = 30;
     const Data data(9760 + i, options);
-    EXPECT_FALSE(mirroredPose(data.scorer(), data.truth)) << "scene " << i;
+    const std::optional<QueryPose> mirrored = mirroredPose(data.scorer(), data.truth);
+    EXPECT_LT(mirrored ? angleBetween(*mirrored, data.truth) : 0, 0.1) << "scene " << i << " has more than nearly the same pose";
   }
 }
 

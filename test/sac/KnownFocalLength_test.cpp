@@ -204,6 +204,23 @@ TEST(KnownFocalLength, AFlatObjectFarAwayIsNoSuccessInTheWrongOfItsTwoPoses) {
   EXPECT_GT(oneIsRight, 0.85 * ambiguous);
 }
 
+TEST(KnownFocalLength, NorIsItIfTheFocalLengthIsKnownRoughly) {
+  int successes = 0, wrong = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    Random random(testSeed() + i, 973);
+    const HybridScene scene = flatScene(random, 1, 60, 0.3);
+    HybridRansacOptions options;
+    options.seed = i;
+    options.focalLengthPriorPx = scene.truth.focalLength;
+    options.focalLengthPriorLogDeviation = 0.02;
+    const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+    successes += result.success;
+    wrong += result.success && angleBetween(result.pose, scene.truth) > kRightAngle;
+  }
+  EXPECT_LE(wrong, 2) << "a tenth, if the second pose is not looked for";
+  EXPECT_GT(successes, 40);
+}
+
 TEST(KnownFocalLength, AFlatObjectThatFillsTheImageIsASuccess) {
   for (std::uint64_t i = 0; i < 40; ++i) {
     Random random(testSeed() + i, 971);
