@@ -61,8 +61,8 @@ void checkFinite(const std::string& name, const Eigen::Vector3d& value) {
   if (!value.allFinite()) throwInvalid(name, "must be finite, is " + detail::format(value));
 }
 
-// What nearly all rotations pass, ten times faster than the exact test, and nothing else: with columns a, b, c, a and b are orthonormal and
-// c = a x b, each to a tenth of the tolerance.
+// What nearly all rotations pass, faster than the exact test, and nothing else: with columns a, b, c, a and b are orthonormal and c = a x b,
+// each to a tenth of the tolerance.
 static bool isClearlyRotation(const Eigen::Matrix3d& m, double tolerance) {
   const auto isNear = [=](double value, double expected) { return std::abs(value - expected) < tolerance / 10; };
   const double *a = m.data(), *b = a + 3, *c = b + 3;

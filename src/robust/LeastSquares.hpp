@@ -53,8 +53,9 @@ struct LeastSquaresOptions {
 
 struct LeastSquaresResult {
   QueryPose pose;
+  // Where the cost was looked at last: at the result, or before a last short step that changes next to nothing.
   double cost = 0;
-  ParameterMatrix information;  // J^T W J at the result
+  ParameterMatrix information;  // J^T W J
   bool converged = false;
   int iterations = 0;
 };

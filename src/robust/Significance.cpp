@@ -20,6 +20,7 @@ constexpr double kLogFalseAlarmsOfNeighbours = -2;
 // every way, and up to half of them are inliers there.
 constexpr double kLogFalseAlarmsOfRays = -25;
 
+// Random pairs that are counted first, and the number of correspondences from which on that saves something.
 constexpr std::size_t kFewPairs = OtherPairs::kPairs / 4;
 constexpr int kMany = 64;
 
@@ -125,11 +126,13 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   };
   if (!areLessLikelyThan(logFalseAlarms)) return false;
   const Shares ofEvenPoints = shares;
+  std::optional<Shares> ofNeighbours;
   const auto areWithPairs = [&](const Shares& ofRandomPairs) {
     shares = largest(ofEvenPoints, ofRandomPairs);
     if (!areLessLikelyThan(logFalseAlarms)) return false;
     if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_, &workers_);
-    shares = largest(shares, sharesOf(*neighbours_));
+    if (!ofNeighbours) ofNeighbours = sharesOf(*neighbours_);
+    shares = largest(shares, *ofNeighbours);
     return areLessLikelyThan(kLogFalseAlarmsOfNeighbours);
   };
   // Of many correspondences, mostly a few pairs tell.
