@@ -10,6 +10,7 @@
 #include "robust/MirroredPose.hpp"
 #include "robust/Overlap.hpp"
 #include "robust/SampleCheck.hpp"
+#include "robust/TurnAboutLine.hpp"
 #include "robust/sampleLimit.hpp"
 
 namespace hybridgv {
@@ -566,7 +567,10 @@ sac::FailureReason HybridSearch::verdict(const FinalPose& final) {
 
 // A large standard deviation is not exact: then the likelihood itself must fall on both sides.
 bool HybridSearch::isDetermined(const FinalPose& final) const {
+  constexpr double kLargestTurn = 0.15;  // a standard deviation [rad]
   if (!final.isRegular) return false;
+  if (!(deviationOfTurn(scorer_, final.pose, final.noise.points.deviation, optimizer_.rayNoise(final)) < kLargestTurn))
+    return false;
   const double deviation =
       std::max(std::sqrt(varianceOfLogFocalLength(final.covariance, estimated())), final.deviationWithoutLevers);
   if (!(deviation < options_.maxFocalLengthDeviation)) return false;

@@ -73,6 +73,8 @@ class LocalOptimizer {
   double logEvidenceForDistortion(const Optimum& optimum) const;
   // From now on poses have no distortion.
   void forgetDistortion() { estimated_.radial = false; }
+  // Of the rays that are inliers.
+  RayNoise rayNoise(const Optimum& optimum) const;
   // The kinds with more inliers than a wrong pose has; both if none has.
   Kinds moreThanChance(const QueryPose& pose) const;
 
@@ -99,7 +101,6 @@ class LocalOptimizer {
   Optimum optimumAt(const QueryPose& pose, const Kinds& kinds, const RayTreatment& treatment, double rayWeight) const;
   // `at`: the derivatives of the inliers' errors.
   void findCovariance(const LeastSquaresProblem& inliers, const Derivatives& at, FinalPose& result) const;
-  RayNoise rayNoise(const Optimum& optimum) const;
   void allowForDepths(const LeastSquaresProblem& inliers, const ParameterMatrix& information, FinalPose& result) const;
   void correctNoise(const ParameterMatrix& information, SharedInformation& shared, FinalPose& result) const;
 
