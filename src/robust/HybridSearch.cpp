@@ -179,6 +179,7 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
 // Or, as long as no pose is believed, if it is the best minimal solution so far.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   const bool isPromising = significance_.isPromising(candidate.logChance);
+  if (promisingOnly_ && !(isPromising && significance_.isPromising(candidate.model.pose))) return false;
   if (bestIsSignificant_ || promisingOnly_) return isPromising && !leadsToBest(candidate.model.pose);
   const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
   if (isBest) bestCandidate_ = candidate;

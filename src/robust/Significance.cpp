@@ -109,6 +109,13 @@ double Significance::logChance(const Evaluation& evaluation) const {
 
 bool Significance::isPromising(double logChance) const { return logAlarms(logChance) < 0; }
 
+bool Significance::isPromising(const QueryPose& pose) {
+  const SquaredErrors errors{scorer_.squaredRayErrors(pose), scorer_.squaredPointErrors(pose)};
+  if (!fewPairs_) fewPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_, kFewPairs);
+  const Shares ofPairs = fewPairs_->shares(toPlain(pose), scorer_.bounds().rays, scorer_.bounds().points);
+  return isLessLikelyAtAnyLevels(errors, largest(chance_.levelShares(), ofPairs), -logSamples_ - kLogChoices);
+}
+
 bool Significance::isSignificant(const QueryPose& pose) { return isLessLikelyThan(kLogFalseAlarms, pose); }
 
 bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose) {

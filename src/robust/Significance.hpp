@@ -45,6 +45,8 @@ class Significance {
   double logChance(const Evaluation& evaluation) const;
   // Whether less than one wrong pose is expected to look as good: the solution deserves a closer look.
   bool isPromising(double logChance) const;
+  // The same by the shares of inliers that other pairs of the same data have, too: slower, but true of data that crowd.
+  bool isPromising(const QueryPose& pose);
   // Whether chance is as good as excluded.
   bool isSignificant(const QueryPose& pose);
   // Whether the pose can be trusted at last, else why not. `isDetermined`: its inliers fix all parameters.

@@ -73,6 +73,43 @@ TEST_F(SignificanceTest, OfTheTrueAndOfAWrongPose) {
   EXPECT_FALSE(significance.isSignificant(wrongPose()));
 }
 
+TEST_F(SignificanceTest, OfTheTruePoseAloneIsPromisingByOtherPairsToo) {
+  const auto isPromising = [&](const QueryPose& pose) { return significance.isPromising(pose); };
+  EXPECT_TRUE(isPromising(truth()));
+  EXPECT_FALSE(isPromising(wrongPose()));
+  significance.setSamples(1000000);
+  EXPECT_TRUE(isPromising(truth()));
+}
+
+// Half of the image points crowd at the left, half at the right, whatever the points are. From far away, all points are at the left.
+TEST(Significance, APoseThatHitsACrowdIsNotPromising) {
+  test::Random random(test::testSeed(), 131);
+  test::SceneOptions options;
+  options.rays = 0;
+  options.points = 100;
+  test::HybridScene scene = test::makeHybridScene(random, options);
+  for (std::size_t i = 0; i < scene.image2d3d.size(); ++i) {
+    const double middle = i % 2 == 0 ? -400 : 400;
+    scene.image2d3d[i] = {middle + random.uniform(-20, 20), random.uniform(-20, 20), 1};
+  }
+  const NoncentralHybridAdapter adapter = scene.adapter();
+  const correspondences::CorrespondenceArrays arrays(adapter, {}, correspondences::allIndices(100));
+  const PoseScorer scorer(arrays, {10, 30}, sac::Scoring::Msac);
+  const Sampler sampler({}, {}, correspondences::allIndices(100), false);
+  const ChanceModel chance(arrays, 10, 30);
+  const QueryFeatures features(arrays);
+  WorkerPool workers(1);
+  Significance significance(scorer, chance, sampler, features, workers, 7, 1);
+
+  QueryPose pose;
+  pose.focalLength = 1000;
+  pose.position = {400, 0, -1000};  // points are about 1 from the origin
+  const Evaluation evaluation = scorer.evaluate(pose);
+  ASSERT_GE(evaluation.points, 45);
+  EXPECT_TRUE(significance.isPromising(significance.logChance(evaluation)));
+  EXPECT_FALSE(significance.isPromising(pose));
+}
+
 TEST_F(SignificanceTest, VerdictSaysWhyAPoseCannotBeTrusted) {
   EXPECT_EQ(verdict(truth()), FailureReason::None);
   EXPECT_EQ(verdict(truth(), false), FailureReason::UndeterminedPose);
