@@ -110,7 +110,7 @@ int HybridSearch::mostIterations() const {
 }
 
 int HybridSearch::leastIterations() const {
-  constexpr double kWithUnknownLens = 4, kWithKnownFocalLength = 0.5;
+  constexpr double kWithUnknownLens = 4, kWithKnownFocalLength = 1. / 3;
   const double factor = lens_.isUnknown ? kWithUnknownLens : options_.knownFocalLengthPx ? kWithKnownFocalLength : 1;
   return static_cast<int>(std::min(std::ceil(factor * options_.minIterations), static_cast<double>(mostIterations_)));
 }

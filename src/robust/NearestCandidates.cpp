@@ -72,13 +72,13 @@ static std::size_t findSmallest(const double* numbers, std::size_t size, std::ar
       sinking = larger;
     }
   }
-  std::array<double, 2 * Nearest::kFirst> all;
-  for (std::size_t k = 0; k < Nearest::kFirst; ++k) {
-    all[2 * k] = lists[k][0];
-    all[2 * k + 1] = lists[k][1];
+  // Merged.
+  std::size_t next[2] = {0, 0};
+  for (double& number : smallest) {
+    const double a = lists[next[0]][0], b = lists[next[1]][1];
+    number = std::min(a, b);
+    ++next[b < a];
   }
-  std::sort(all.begin(), all.end());
-  std::copy(all.begin(), all.begin() + Nearest::kFirst, smallest.begin());
   return std::min(size, Nearest::kFirst);
 }
 
@@ -101,10 +101,18 @@ std::size_t Nearest::findFirst(const double* squaredDistances, std::size_t size,
   for (std::size_t g = 0; g < groups; ++g) leastOfGroup[g] = leastOfEight(numbers.data() + g * kGroup);
   std::array<double, kFirst> smallest;
   const std::size_t chosen = findSmallest(leastOfGroup.data(), groups, smallest);
+  // The last of these groups' smallest numbers has enough smaller ones.
+  const double largest = chosen < kFirst ? kNone : smallest.back();
   std::array<double, kFirst * kGroup> left;
-  for (std::size_t k = 0; k < chosen; ++k)
-    std::copy_n(numbers.begin() + placeOf(smallest[k]) / kGroup * kGroup, kGroup, left.begin() + k * kGroup);
-  findSmallest(left.data(), chosen * kGroup, smallest);
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < chosen; ++g) {
+    const double* const group = numbers.data() + placeOf(smallest[g]) / kGroup * kGroup;
+    for (std::size_t k = 0; k < kGroup; ++k) {
+      left[count] = group[k];
+      count += group[k] <= largest;
+    }
+  }
+  findSmallest(left.data(), count, smallest);
   const std::size_t found = std::min(size, kFirst);
   for (std::size_t k = 0; k < found; ++k) first[k] = placeOf(smallest[k]);
   return found;
