@@ -194,10 +194,10 @@ double CorrespondenceArrays::imageRadius() const {
   return std::min(kMostOfQuantile * quantile, *std::max_element(radii.begin(), radii.end()));
 }
 
-void CorrespondenceArrays::fixUnknownFocalLengths() {
+void CorrespondenceArrays::fixUnknownFocalLengths(double least) {
   const auto isUnknown = [](const MapImagePoint& point) { return !(point.focalLength > 0); };
   if (std::none_of(mapImagePoints_.begin(), mapImagePoints_.end(), isUnknown)) return;
-  const double g = imageSize();
+  const double g = std::max(imageSize(), least);
   if (!(g > 0)) return;
   const std::size_t rows = padded(rays_.size());
   for (std::size_t i = 0; i < rays_.size(); ++i) {

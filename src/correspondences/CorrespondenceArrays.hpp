@@ -42,9 +42,9 @@ class CorrespondenceArrays {
   // Those with these indices, in their order: the same numbers, in the same normalized frame.
   CorrespondenceArrays subset(const std::vector<int>& rayIndices, const std::vector<int>& pointIndices) const;
 
-  // A rig camera of unknown focal length then has about the width of the query's image as its own. It must not follow the query's
-  // focal length: the Sampson error of any data vanishes as that goes to 0, and falls as it grows.
-  void fixUnknownFocalLengths();
+  // A rig camera of unknown focal length then has about the width of the query's image as its own, at least this one. It must not follow a
+  // focal length of the query that is to be found: the Sampson error of any data vanishes as that goes to 0, and falls as it grows.
+  void fixUnknownFocalLengths(double least = 0);
   // About the width of the query's image: twice the largest coordinate, if the image points reach the image's border evenly. A few
   // points far away do not decide. 0 if there are none.
   double imageSize() const;

@@ -1,6 +1,7 @@
 #include "robust/HybridSearch.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -72,7 +73,9 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
       estimated_{!options.knownFocalLengthPx, lens_.isUnknown},
       choice_(makeStrategies(options.solvers, data_.sampler, knowledgeOf(options))),
       guess_(makeGuess(options, data_.arrays)),
-      scorer_(data_.arrays, thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, data_.arrays),
+      scorer_(data_.arrays,
+              thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, roughlyKnownFocalLength(options),
+                              data_.arrays),
               options.scoring),
       chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
@@ -464,24 +467,58 @@ FinalPose HybridSearch::bestBeside(FinalPose best) const {
   return best;
 }
 
+bool HybridSearch::areDistinct(const FinalPose& pose, const QueryPose& other) const {
+  constexpr double kSame = 4;  // standard deviations
+  if (!pose.isRegular) return true;
+  const ParameterVector change = changeOf(pose.pose, other, estimated_);
+  return change.dot(pose.covariance.ldlt().solve(change)) > kSame * kSame;
+}
+
+// To the optima, those that the starts lead to, if they are new and turned against all by at least so much.
+void HybridSearch::addOptimaFrom(const std::vector<QueryPose>& starts, double leastTurn, const LocalOptimizer& optimizer,
+                                 std::vector<FinalPose>& optima) const {
+  const auto isNew = [&](const QueryPose& pose) {
+    return std::all_of(optima.begin(), optima.end(), [&](const FinalPose& optimum) {
+      const Eigen::Matrix3d turn = optimum.pose.rotation.transpose() * pose.rotation;
+      return areDistinct(optimum, pose) && Eigen::AngleAxisd(turn).angle() >= leastTurn;
+    });
+  };
+  for (const QueryPose& start : starts) {
+    const QueryPose refined = optimizer.refine(start);
+    if (!isNew(refined)) continue;
+    const FinalPose optimum = optimizer.finish(optimizer.polish(refined));
+    if (isNew(optimum.pose)) optima.push_back(optimum);
+  }
+}
+
 // Where the focal length is known, little speaks against the mirrored pose of a flat scene: an optimum of its own, which the search may well
 // have found instead. (A focal length that such a scene determines leaves no doubt about the pose.)
-FinalPose HybridSearch::likelierOfMirrored(const FinalPose& pose, const LocalOptimizer& optimizer, const PoseScorer& scorer) {
-  constexpr double kSame = 4, kClear = 6;  // standard deviations, and log-likelihood
-  constexpr double kMostMissing = 0.5;     // of the inliers, in the other pose
+FinalPose HybridSearch::likelierOfMirrored(const FinalPose& pose, const LookAlikes& others, const LocalOptimizer& optimizer,
+                                           const PoseScorer& scorer) {
+  constexpr double kClear = 6, kClearDeviations = 1.5;  // log-likelihood, and that by what it scatters
+  constexpr double kMostMissing = 0.5;                  // of the inliers, in the other pose
+  // Nearer ones [rad] lie in the same valley of the likelihood, which is as long as the turn about a line is uncertain.
+  constexpr double kLeastTurn = 0.35;
   mirrored_.reset();
-  if (knowledgeOf(options_) == FocalLengthKnowledge::None || !pose.isRegular) return pose;
-  const std::optional<QueryPose> start = mirroredPose(scorer, pose.pose);
-  if (!start) return pose;
-  const FinalPose other = optimizer.finish(optimizer.polish(optimizer.refine(*start)));
-  const ParameterVector change = changeOf(pose.pose, other.pose, estimated_);
-  if (!(change.dot(pose.covariance.ldlt().solve(change)) > kSame * kSame)) return pose;
-  const double gain = optimizer.logLikelihoodRatio(other, pose);
-  const bool isLikelier = gain > 0 && other.isRegular;
-  const FinalPose &better = isLikelier ? other : pose, &worse = isLikelier ? pose : other;
-  const Overlap inliers = overlap(scorer.inliers(better.pose), scorer.inliers(worse.pose));
-  if (std::abs(gain) < kClear && inliers.onlyFirst < kMostMissing * (inliers.onlyFirst + inliers.both)) mirrored_ = worse.pose;
-  return better;
+  if (!pose.isRegular) return pose;
+  std::vector<FinalPose> optima{pose};
+  addOptimaFrom(others.mirrored, 0, optimizer, optima);
+  addOptimaFrom(others.turned, kLeastTurn, optimizer, optima);
+  const FinalPose* best = &optima[0];
+  for (const FinalPose& optimum : optima)
+    if (optimum.isRegular && optimizer.likelihoodRatio(optimum, *best).log > 0) best = &optimum;
+  double least = std::numeric_limits<double>::infinity();
+  for (const FinalPose& optimum : optima) {
+    if (&optimum == best) continue;
+    const LikelihoodRatio ratio = optimizer.likelihoodRatio(*best, optimum);
+    const double loss = std::abs(ratio.log);
+    if (!(loss < std::min(least, std::max(kClear, kClearDeviations * ratio.deviation)))) continue;
+    const Overlap inliers = overlap(scorer.inliers(best->pose), scorer.inliers(optimum.pose));
+    if (inliers.onlyFirst >= kMostMissing * (inliers.onlyFirst + inliers.both)) continue;
+    mirrored_ = optimum.pose;
+    least = loss;
+  }
+  return *best;
 }
 
 FinalPose HybridSearch::polishedAtDistance(const FinalPose& pose, double factor) const {
@@ -528,7 +565,8 @@ FinalPose HybridSearch::finish(bool optimize) {
     findThresholds(best_);
   }
   FinalPose result = optimize ? polishBest() : optimizer_.finish(optimizer_.keep(best_.pose));
-  if (optimize) result = likelierOfMirrored(result, optimizer_, scorer_);
+  if (optimize && knowledgeOf(options_) != FocalLengthKnowledge::None)
+    result = likelierOfMirrored(result, lookAlikes(scorer_, result.pose), optimizer_, scorer_);
   if (part_)
     result = fitToAll(result, optimize);
   else
@@ -549,7 +587,7 @@ FinalPose HybridSearch::fitToAll(const FinalPose& ofPart, bool optimize) {
   optimizer.setWorkers(workers_);
   FinalPose result =
       optimizer.finish(optimize ? optimizer.polishNear(ofPart.pose, ofPart.rayWeight) : optimizer.keep(ofPart.pose));
-  if (mirrored_) result = likelierOfMirrored(result, optimizer, scorer);
+  if (mirrored_) result = likelierOfMirrored(result, {{*mirrored_}, {}}, optimizer, scorer);
   optimizer.allowForPrincipalPoint(options_.principalPointDeviationPx, result);
   best_.pose = result.pose;
   scorer.setThresholds({result.noise.rays.boundary, result.noise.points.boundary});

@@ -14,6 +14,7 @@
 #include "robust/GatheredSamples.hpp"
 #include "robust/Lens.hpp"
 #include "robust/LocalOptimizer.hpp"
+#include "robust/MirroredPose.hpp"
 #include "robust/PoseScorer.hpp"
 #include "robust/SearchData.hpp"
 #include "robust/Significance.hpp"
@@ -133,7 +134,12 @@ class HybridSearch {
   FinalPose bestBeside(FinalPose best) const;
   FinalPose polishedAtDistance(const FinalPose& pose, double factor) const;
   bool isBetterDetermined(const FinalPose& pose, const FinalPose& than) const;
-  FinalPose likelierOfMirrored(const FinalPose& pose, const LocalOptimizer& optimizer, const PoseScorer& scorer);
+  // The likeliest of the pose and those that look the same; what is nearly as likely becomes mirrored().
+  FinalPose likelierOfMirrored(const FinalPose& pose, const LookAlikes& others, const LocalOptimizer& optimizer,
+                               const PoseScorer& scorer);
+  void addOptimaFrom(const std::vector<QueryPose>& starts, double leastTurn, const LocalOptimizer& optimizer,
+                     std::vector<FinalPose>& optima) const;
+  bool areDistinct(const FinalPose& pose, const QueryPose& other) const;
   // Of log f.
   double deviationOf(const FinalPose& pose) const;
   void takeOutDistortion();

@@ -98,6 +98,26 @@ PerKind<double> fittedDeviations(const PerKind<InlierSum>& inliers, int paramete
   return {deviation(sums.rays, equations.rays), deviation(sums.points, equations.points)};
 }
 
+// Of logs of the likelihood, error by error, of one pose over another.
+struct Gains {
+  std::size_t count = 0;
+  double sum = 0, squares = 0;
+
+  // Of the sum, whatever its mean is.
+  double variance() const { return count > 0 ? std::max(squares - sum * sum / static_cast<double>(count), 0.) : 0; }
+};
+
+Gains gains(const ErrorMixture& kind, const std::vector<double>& squaredErrors, const std::vector<double>& ofOther,
+            double weight) {
+  Gains result{squaredErrors.size()};
+  for (std::size_t i = 0; i < squaredErrors.size(); ++i) {
+    const double gain = weight * std::log((1 + kind.oddsAt(squaredErrors[i])) / (1 + kind.oddsAt(ofOther[i])));
+    result.sum += gain;
+    result.squares += gain * gain;
+  }
+  return result;
+}
+
 KindLoss truncatedLoss(double truncation) { return {Loss::Truncated, truncation, 1 / (truncation * truncation)}; }
 
 // Of those that are more likely inliers.
@@ -202,13 +222,18 @@ double LocalOptimizer::logLikelihood(const QueryPose& pose, const Kinds& kinds, 
          priorCost(pose) / 2;
 }
 
-double LocalOptimizer::logLikelihoodRatio(const Optimum& a, const Optimum& b) const {
+LikelihoodRatio LocalOptimizer::likelihoodRatio(const Optimum& a, const Optimum& b) const {
+  const SquaredErrors ofA = squaredErrors(a.pose, kBothKinds, Reach::BeyondInfinity);
+  const SquaredErrors ofB = squaredErrors(b.pose, kBothKinds, Reach::BeyondInfinity);
+  const double ofPrior = (priorCost(b.pose) - priorCost(a.pose)) / 2;
   const auto byNoiseOf = [&](const Optimum& optimum) {
-    return logLikelihood(a.pose, kBothKinds, optimum) - logLikelihood(b.pose, kBothKinds, optimum);
+    const Gains rays = gains(optimum.noise.rays, ofA.rays, ofB.rays, optimum.rayWeight);
+    const Gains points = gains(optimum.noise.points, ofA.points, ofB.points, 1);
+    return LikelihoodRatio{rays.sum + points.sum + ofPrior, std::sqrt(rays.variance())};
   };
-  const double byA = byNoiseOf(a), byB = byNoiseOf(b);
-  if (!(byA * byB > 0)) return 0;
-  return byA > 0 ? std::min(byA, byB) : std::max(byA, byB);
+  const LikelihoodRatio byA = byNoiseOf(a), byB = byNoiseOf(b);
+  if (!(byA.log * byB.log > 0)) return {0, std::max(byA.deviation, byB.deviation)};
+  return std::abs(byA.log) < std::abs(byB.log) ? byA : byB;
 }
 
 QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {

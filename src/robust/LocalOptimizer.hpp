@@ -34,6 +34,15 @@ struct FinalPose : Optimum {
   double deviationWithoutLevers = 0;  // of log f, if rays with large leverages are left out
 };
 
+// How much likelier one pose is than another.
+struct LikelihoodRatio {
+  double log = 0;
+  // By which that scatters where the two are as good. Poses in which the same is seen have the same errors of points, but epipolar lines in
+  // different directions, so that the noise across them is another: the log is a sum of as many accidents as there are rays. (Q. Vuong,
+  // Likelihood ratio tests for model selection and non-nested hypotheses, Econometrica 1989.)
+  double deviation = 0;
+};
+
 class LocalOptimizer {
  public:
   // The scorer, the chance model and the features of the scorer's correspondences must outlive the optimizer.
@@ -67,8 +76,8 @@ class LocalOptimizer {
   QueryPose atDistance(const QueryPose& pose, double factor) const;
   // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const QueryPose& pose) const;
-  // Log of the likelihood of a over that of b, for equal noise: that of the two for which it is nearer to 0; 0 if they differ in the sign.
-  double logLikelihoodRatio(const Optimum& a, const Optimum& b) const;
+  // Of a over b, for equal noise: that of the two for which the log is nearer to 0; 0 if they differ in the sign.
+  LikelihoodRatio likelihoodRatio(const Optimum& a, const Optimum& b) const;
   // logEvidence for the distortion of this optimum of the likelihood; -infinity if its inliers do not fix the pose.
   double logEvidenceForDistortion(const Optimum& optimum) const;
   // From now on poses have no distortion.

@@ -1,8 +1,10 @@
 #include "robust/MirroredPose.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "robust/ApparentDepth.hpp"
@@ -10,6 +12,8 @@
 namespace hybridgv {
 namespace robust {
 namespace {
+
+constexpr double kPi = 3.14159265358979323846;
 
 using Positions = std::vector<Eigen::Vector3d>;
 
@@ -26,59 +30,116 @@ Positions inlierPoints(const PoseScorer& scorer, const std::vector<double>& squa
   return positions;
 }
 
+// Of the inlier rays, the half that noise moves least.
 void addInlierRays(const PoseScorer& scorer, const std::vector<double>& squaredErrors, const QueryPose& pose,
                    Positions& positions) {
   const double squared = scorer.thresholds().rays * scorer.thresholds().rays;
+  struct Place {
+    Eigen::Vector3d position;
+    double uncertainty;
+  };
+  std::vector<Place> places;
   for (std::size_t i = 0; i < squaredErrors.size(); ++i) {
     if (!(squaredErrors[i] < squared)) continue;
     const correspondences::RayMatch& ray = scorer.arrays().rays()[i];
-    const double depth = 1 / apparentDepth(ray, pose).inverse;
+    const ApparentDepth apparent = apparentDepth(ray, pose);
+    const double depth = 1 / apparent.inverse;
     const Eigen::Vector3d direction(ray.u / pose.focalLength, ray.v / pose.focalLength, 1);
-    const Eigen::Vector3d position = pose.position + depth * (pose.rotation * direction);
-    if (depth > 0 && position.allFinite()) positions.push_back(position);
+    const Place place{pose.position + depth * (pose.rotation * direction), apparent.perPixel * depth * depth};
+    if (depth > 0 && place.position.allFinite() && std::isfinite(place.uncertainty)) places.push_back(place);
   }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.uncertainty < b.uncertainty; });
+  for (std::size_t i = 0; i < (places.size() + 1) / 2; ++i) positions.push_back(places[i].position);
 }
 
-// At least three positions. None if by their distances from the plane, which change sides, errors become larger than this.
-std::optional<QueryPose> mirroredAt(const Positions& positions, const QueryPose& pose, double largestError) {
-  constexpr double kLeastAngle = 1e-3;  // between the plane's normal and the direction in which it is seen
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& position : positions) centre += position;
-  centre /= static_cast<double>(positions.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& position : positions) scatter.noalias() += (position - centre) * (position - centre).transpose();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(scatter);
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0), direction = (centre - pose.position).normalized();
-  const double angle = normal.cross(direction).norm(), distance = (centre - pose.position).norm();
-  const double relief = std::sqrt(std::max(solver.eigenvalues()[0], 0.) / static_cast<double>(positions.size()));
-  if (!normal.allFinite() || !(angle > kLeastAngle)) return std::nullopt;
-  if (!(2 * relief * angle / distance * pose.focalLength < largestError)) return std::nullopt;
-  const auto reflection = [](const Eigen::Vector3d& axis) -> Eigen::Matrix3d {
-    return Eigen::Matrix3d::Identity() - 2 * axis * axis.transpose();
-  };
-  const Eigen::Matrix3d back = reflection(normal) * reflection(direction);
-  QueryPose result = pose;
-  result.rotation = back * pose.rotation;
-  result.position = centre + back * (pose.position - centre);
-  return result;
+// Principal axes of at least three positions, and the standard deviations along them, the smallest first.
+struct Extents {
+  explicit Extents(const Positions& positions) {
+    for (const Eigen::Vector3d& position : positions) centre += position / static_cast<double>(positions.size());
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& position : positions) scatter.noalias() += (position - centre) * (position - centre).transpose();
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(scatter);
+    axes = solver.eigenvectors();
+    deviations = (solver.eigenvalues() / static_cast<double>(positions.size())).cwiseMax(0).cwiseSqrt();
+  }
+
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), deviations;
+  Eigen::Matrix3d axes;
+};
+
+Eigen::Matrix3d reflection(const Eigen::Vector3d& axis) { return Eigen::Matrix3d::Identity() - 2 * axis * axis.transpose(); }
+
+// Q^T for the plane with this normal; none if it is seen at a right angle, where that is the identity.
+std::optional<Eigen::Matrix3d> mirroring(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction) {
+  constexpr double kLeastAngle = 1e-3;
+  if (!(normal.cross(direction).norm() > kLeastAngle)) return std::nullopt;
+  return reflection(normal) * reflection(direction);
 }
+
+// What turns the query about the centre. `largestError` [px]: what lies beside the plane or the line changes sides, by which errors may become
+// as large.
+class Turns {
+ public:
+  Turns(const Extents& extents, const QueryPose& pose, double largestError)
+      : axes_(extents.axes), deviations_(extents.deviations), offset_(extents.centre - pose.position) {
+    isValid_ = axes_.allFinite() && deviations_[2] > 0;
+    largestDeviation_ = largestError / 2 * offset_.norm() / pose.focalLength;
+  }
+
+  std::vector<Eigen::Matrix3d> mirrored() const {
+    const Eigen::Vector3d normal = axes_.col(0);
+    const std::optional<Eigen::Matrix3d> turn = mirroring(normal, direction());
+    const bool isFlat = isValid_ && deviations_[0] * normal.cross(direction()).norm() < largestDeviation_;
+    return isFlat && turn ? std::vector<Eigen::Matrix3d>{*turn} : std::vector<Eigen::Matrix3d>();
+  }
+  std::vector<Eigen::Matrix3d> turned() const {
+    constexpr int kTurns = 8;
+    std::vector<Eigen::Matrix3d> turns;
+    if (!isValid_ || !(deviations_[1] < largestDeviation_)) return turns;
+    const Eigen::Vector3d line = axes_.col(2), across = line.cross(direction()).cross(line);
+    const std::optional<Eigen::Matrix3d> mirrored = mirroring(across.normalized(), direction());
+    for (int k = 0; k < kTurns; ++k) {
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * 2 * kPi / kTurns, line).toRotationMatrix();
+      if (k > 0) turns.push_back(turn);
+      if (mirrored) turns.push_back(turn * *mirrored);
+    }
+    return turns;
+  }
+
+ private:
+  Eigen::Vector3d direction() const { return offset_.normalized(); }
+
+  Eigen::Matrix3d axes_;
+  Eigen::Vector3d deviations_, offset_;
+  bool isValid_;
+  double largestDeviation_;
+};
 
 }  // namespace
 
-std::optional<QueryPose> mirroredPose(const PoseScorer& scorer, const QueryPose& pose) {
+LookAlikes lookAlikes(const PoseScorer& scorer, const QueryPose& pose) {
   constexpr std::size_t kEnoughPoints = 6, kFewest = 3;
-  const std::vector<double> points = scorer.squaredPointErrors(pose);
+  const std::vector<double> points = scorer.squaredPointErrors(pose), rays = scorer.squaredRayErrors(pose);
   Positions positions = inlierPoints(scorer, points);
-  if (positions.size() < kEnoughPoints) addInlierRays(scorer, scorer.squaredRayErrors(pose), pose, positions);
-  if (positions.size() < kFewest) return std::nullopt;
-  const std::optional<QueryPose> result = mirroredAt(positions, pose, std::max(scorer.bounds().points, scorer.bounds().rays));
-  if (!result) return std::nullopt;
-  const std::vector<double> rays = scorer.squaredRayErrors(pose);
+  if (positions.size() < kEnoughPoints) addInlierRays(scorer, rays, pose, positions);
+  if (positions.size() < kFewest) return {};
   const std::size_t inliers = countBelow(points, scorer.thresholds().points) + countBelow(rays, scorer.thresholds().rays);
-  const std::size_t near = countBelow(scorer.squaredPointErrors(*result), scorer.bounds().points) +
-                           countBelow(scorer.squaredRayErrors(*result), scorer.bounds().rays);
-  return 2 * near > inliers ? result : std::nullopt;
+  const Extents extents(positions);
+  const auto posesAt = [&](const std::vector<Eigen::Matrix3d>& turns) {
+    std::vector<QueryPose> poses;
+    for (const Eigen::Matrix3d& turn : turns) {
+      QueryPose other = pose;
+      other.rotation = turn * pose.rotation;
+      other.position = extents.centre + turn * (pose.position - extents.centre);
+      const std::size_t near = countBelow(scorer.squaredPointErrors(other), scorer.bounds().points) +
+                               countBelow(scorer.squaredRayErrors(other), scorer.bounds().rays);
+      if (2 * near > inliers) poses.push_back(other);
+    }
+    return poses;
+  };
+  const Turns turns(extents, pose, std::max(scorer.bounds().points, scorer.bounds().rays));
+  return {posesAt(turns.mirrored()), posesAt(turns.turned())};
 }
 
 }  // namespace robust

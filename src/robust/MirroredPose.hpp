@@ -1,7 +1,7 @@
-// The other pose in which a flat object that is far away looks the same.
+// The other poses in which a flat or a thin object that is far away looks the same.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "robust/PoseScorer.hpp"
 
@@ -13,9 +13,16 @@ namespace robust {
 // with Q^T R and the position c + Q^T (t - c), agrees with all correspondences as far as perspective does not tell. (The other minimum of
 // G. Schweighofer, A. Pinz, Robust pose estimation from a planar target, PAMI 2006.)
 //
-// None if the scene at this pose is clearly not of that kind: the plane is that of the inlier points (of the inlier rays', if the points are
+// What is so thin that it nearly is a line looks about the same in all turns about it, whether or not they are mirrored, too; every plane
+// through the line then is as good as another.
+struct LookAlikes {
+  std::vector<QueryPose> mirrored;  // one at most
+  std::vector<QueryPose> turned;    // by eighths of a turn; mirrored ones among them
+};
+
+// None if the scene at this pose is clearly not of that kind: its extents are those of the inlier points (and the inlier rays', if the points are
 // few), and most of the inliers must have errors within the bounds at the other pose.
-std::optional<QueryPose> mirroredPose(const PoseScorer& scorer, const QueryPose& pose);
+LookAlikes lookAlikes(const PoseScorer& scorer, const QueryPose& pose);
 
 }  // namespace robust
 }  // namespace hybridgv

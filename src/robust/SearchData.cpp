@@ -86,6 +86,10 @@ std::vector<int> at(const std::vector<int>& values, const std::vector<int>& plac
 
 }  // namespace
 
+double roughlyKnownFocalLength(const sac::HybridRansacOptions& options) {
+  return options.knownFocalLengthPx.value_or(options.focalLengthPriorPx.value_or(0));
+}
+
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,
                           WorkerPool& workers) {
   const correspondences::Counts counts = correspondences::readCounts(adapter);
@@ -102,7 +106,9 @@ SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const s
       data.pointIndices = shuffled(counts.points, options.seed, kPointOrderStream);
   });
   data.arrays = CorrespondenceArrays(adapter, data.rayIndices, data.pointIndices, forEach);
-  data.arrays.fixUnknownFocalLengths();
+  // Image points of a small object do not tell the image's size. A focal length that is too large only makes light of the map image's part of the
+  // errors; one that is too small makes all of them small.
+  data.arrays.fixUnknownFocalLengths(roughlyKnownFocalLength(options));
   if (!isLarge) data.sampler = makeSampler(adapter, data.arrays, data.rayIndices, data.pointIndices, options.sampling);
   return data;
 }

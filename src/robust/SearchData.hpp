@@ -19,6 +19,9 @@ struct SearchData {
   Sampler sampler;  // draws nothing from many of which only a part is searched in
 };
 
+// The query's, if it is known at all; else 0.
+double roughlyKnownFocalLength(const sac::HybridRansacOptions& options);
+
 // Reads everything that the adapter has; many correspondences by all workers. Throws std::invalid_argument for data or weights that are not
 // finite.
 SearchData readSearchData(const hybrid_pose::HybridAdapterBase& adapter, const sac::HybridRansacOptions& options,

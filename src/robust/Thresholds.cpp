@@ -12,6 +12,7 @@ namespace robust {
 namespace {
 
 constexpr double kBoundOfRays = 0.01, kBoundOfPoints = 0.05;  // of the image's diagonal
+constexpr double kLeastBound = 0.004;                         // of the focal length
 constexpr double kDeviations = 2.5, kMostOfExcess = 0.75;
 
 double workingThreshold(const std::vector<double>& squaredErrors, double bound, const LevelShares& chance,
@@ -35,14 +36,15 @@ double workingThreshold(const std::vector<double>& squaredErrors, double bound, 
 
 }  // namespace
 
-Thresholds thresholdBounds(const Thresholds& given, const correspondences::CorrespondenceArrays& arrays) {
+Thresholds thresholdBounds(const Thresholds& given, double focalLength, const correspondences::CorrespondenceArrays& arrays) {
   if (given.rays > 0 && given.points > 0) return given;
   RobustBox image;
   for (const correspondences::RayMatch& match : arrays.rays()) image.add(match.u, match.v);
   for (const correspondences::PointMatch& match : arrays.points()) image.add(match.u, match.v);
   // Image points that coincide have no size; then no threshold makes sense, and any will do.
   const double measured = image.size().diagonal(), diagonal = measured > 0 ? measured : 1;
-  return {given.rays > 0 ? given.rays : kBoundOfRays * diagonal, given.points > 0 ? given.points : kBoundOfPoints * diagonal};
+  const auto bound = [&](double ofDiagonal) { return std::max(ofDiagonal * diagonal, kLeastBound * focalLength); };
+  return {given.rays > 0 ? given.rays : bound(kBoundOfRays), given.points > 0 ? given.points : bound(kBoundOfPoints)};
 }
 
 Thresholds workingThresholds(const PerKind<std::vector<double>>& squaredErrors, const Thresholds& bounds,

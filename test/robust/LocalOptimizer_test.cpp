@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "HybridScene.hpp"
+#include "robust/MirroredPose.hpp"
 #include "statistics.hpp"
 
 namespace hybridgv {
@@ -86,6 +88,50 @@ TEST(LocalOptimizer, PolishedPoseStaysWhereItIs) {
   const Optimum first = data.optimizer.polish(data.truth), again = data.optimizer.polish(first.pose);
   EXPECT_LT((again.pose.position - first.pose.position).norm(), 1e-3);
   EXPECT_NEAR(again.pose.focalLength / first.pose.focalLength, 1, 1e-4);
+}
+
+TEST(LikelihoodRatio, OfAPoseOverItselfIsOne) {
+  test::Random random(test::testSeed(), 158);
+  const Data data(makeScene(random, 0));
+  const Optimum optimum = data.optimizer.keep(data.truth);
+  const LikelihoodRatio ratio = data.optimizer.likelihoodRatio(optimum, optimum);
+  EXPECT_EQ(ratio.log, 0);
+  EXPECT_EQ(ratio.deviation, 0);
+}
+
+TEST(LikelihoodRatio, OfTheTruthOverAWrongPoseIsLargeAndItsInverseTheOtherWayRound) {
+  test::Random random(test::testSeed(), 159);
+  const Data data(makeScene(random, 0));
+  QueryPose wrong = data.truth;
+  wrong.rotation = wrong.rotation * Eigen::AngleAxisd(0.02, random.direction()).toRotationMatrix();
+  const Optimum a = data.optimizer.keep(data.truth), b = data.optimizer.keep(wrong);
+  const LikelihoodRatio ratio = data.optimizer.likelihoodRatio(a, b), inverse = data.optimizer.likelihoodRatio(b, a);
+  EXPECT_GT(ratio.log, 100);
+  EXPECT_GT(ratio.log, 5 * ratio.deviation);
+  EXPECT_NEAR(inverse.log, -ratio.log, 1e-9 * ratio.log);
+  EXPECT_NEAR(inverse.deviation, ratio.deviation, 1e-9 * ratio.deviation);
+}
+
+// A small flat object and its mirrored pose: of the rays, each is an accident of its own.
+TEST(LikelihoodRatio, ScattersAboutAsStatedWhereTwoPosesAreAsGood) {
+  std::vector<double> ratios;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    test::Random random(test::testSeed() + i, 160);
+    test::SceneOptions options;
+    options.rays = 100;
+    options.points = 10;
+    options.halfSize = 0.1;
+    options.coplanar = true;
+    options.imageNoise = kNoise;
+    const Data data(test::makeHybridScene(random, options));
+    const LookAlikes others = lookAlikes(data.scorer, data.truth);
+    if (others.mirrored.empty()) continue;
+    const LikelihoodRatio ratio =
+        data.optimizer.likelihoodRatio(data.optimizer.keep(data.truth), data.optimizer.keep(others.mirrored[0]));
+    if (ratio.log != 0) ratios.push_back(std::abs(ratio.log) / ratio.deviation);
+  }
+  ASSERT_GT(ratios.size(), 100u);
+  EXPECT_NEAR(test::median(ratios), 0.7, 0.25) << "that of the absolute value of a normal variable is 0.67";
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "HybridScene.hpp"
@@ -37,8 +39,27 @@ test::SceneOptions flat(double halfSize, int rays, int points) {
   return options;
 }
 
+std::optional<QueryPose> mirroredPose(const PoseScorer& scorer, const QueryPose& pose) {
+  const LookAlikes others = lookAlikes(scorer, pose);
+  return others.mirrored.empty() ? std::nullopt : std::optional<QueryPose>(others.mirrored[0]);
+}
+
 double angleBetween(const QueryPose& a, const QueryPose& b) {
   return Eigen::AngleAxisd(a.rotation.transpose() * b.rotation).angle();
+}
+
+// `width`: beside the line, of standard deviation.
+Data thinScene(std::uint64_t stream, double length, double width) {
+  Data data(stream, flat(1, 0, 40));
+  const Eigen::Vector3d line = data.random.direction();
+  for (std::size_t i = 0; i < data.scene.points.size(); ++i) {
+    const Eigen::Vector3d beside(data.random.normal(), data.random.normal(), data.random.normal());
+    data.scene.points[i] = data.random.uniform(-length, length) * line + width * beside;
+    data.scene.image2d3d[i] = test::noisyImagePoint(data.random, test::project(data.scene.truth, data.scene.points[i]), 0);
+  }
+  data.arrays = CorrespondenceArrays(data.scene.adapter(), {}, correspondences::allIndices(40));
+  data.truth = data.arrays.normalization().applyTo(QueryPose(data.scene.truth));
+  return data;
 }
 
 // The perspective errors of an object of relative size s fall with s^2, those of its image with s.
@@ -86,7 +107,32 @@ TEST(MirroredPose, ASceneWithReliefHasNone) {
 TEST(MirroredPose, FewerThanThreeInliersHaveNone) {
   for (const int points : {0, 1, 2}) {
     const Data data(9790, flat(0.5, 0, points));
-    EXPECT_FALSE(mirroredPose(data.scorer(), data.truth)) << points;
+    const LookAlikes others = lookAlikes(data.scorer(), data.truth);
+    EXPECT_TRUE(others.mirrored.empty() && others.turned.empty()) << points;
+  }
+}
+
+TEST(LookAlikes, AThinObjectLooksAboutTheSameAllAroundTheLine) {
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const Data data = thinScene(9800 + i, 0.5, 1e-3);
+    const PoseScorer scorer = data.scorer();
+    const LookAlikes others = lookAlikes(scorer, data.truth);
+    ASSERT_GE(others.turned.size(), 7u) << "scene " << i;
+    double farthest = 0;
+    for (const QueryPose& other : others.turned) {
+      EXPECT_GT(other.rotation.determinant(), 0);
+      EXPECT_NEAR((other.rotation.transpose() * other.rotation - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
+      for (const double error : scorer.squaredPointErrors(other)) EXPECT_LT(error, 3 * 3) << "scene " << i;
+      farthest = std::max(farthest, angleBetween(other, data.truth));
+    }
+    EXPECT_GT(farthest, 3) << "scene " << i;
+  }
+}
+
+TEST(LookAlikes, WhatIsNotThinIsNotTurned) {
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const Data data(9830 + i, flat(1, 20, 20));
+    EXPECT_TRUE(lookAlikes(data.scorer(), data.truth).turned.empty()) << "scene " << i;
   }
 }
 

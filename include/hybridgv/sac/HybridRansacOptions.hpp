@@ -47,14 +47,15 @@ enum class QueryCamera {
 struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// Upper bounds of an inlier's error: 2D-3D, the reprojection error; 2D-2D, the Sampson error. The noise of each kind, and with it
   /// the limit between inliers and outliers, is found by the search itself, so a bound need only not be too small. 0 (automatic): a
-  /// twentieth (2D-3D) and a hundredth (2D-2D) of the diagonal of the box that holds most image points.
+  /// twentieth (2D-3D) and a hundredth (2D-2D) of the diagonal of the box that holds most image points, and not less than 0.004 of the
+  /// focal length where that is known, if only roughly.
   double maxReprojectionErrorPx = 0;
   double maxEpipolarErrorPx = 0;  ///< see maxReprojectionErrorPx
 
   /// Stop when the probability to have missed a sample of inliers only, over all solvers together, is below 1 minus this.
   double successProbability = 0.9999;
   /// Samples drawn at least (if maxIterations allows): noisy data have local optima that look good enough to stop at, and a few
-  /// more samples are cheap. Four times as many where the distortion is unknown, with which there are more of these, and half as many
+  /// more samples are cheap. Four times as many where the distortion is unknown, with which there are more of these, and a third as many
   /// where the focal length is known, without which there are most.
   int minIterations = 24;
   int maxIterations = 10000;                                           ///< samples drawn at most

@@ -83,7 +83,7 @@ struct HybridProblemCore::Data {
         maxReprojectionErrorPx(reprojectionPx),
         maxEpipolarErrorPx(epipolarPx),
         focalLength(checkedFocalLength(knownFocalLengthPx)) {
-    arrays.fixUnknownFocalLengths();
+    arrays.fixUnknownFocalLengths(knownFocalLengthPx.value_or(0));
     checkPositive("maxReprojectionErrorPx", reprojectionPx);
     checkPositive("maxEpipolarErrorPx", epipolarPx);
     checkCount("2D-2D", count2d2d(), problem.rays(), problem.name());

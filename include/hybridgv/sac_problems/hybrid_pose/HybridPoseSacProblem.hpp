@@ -32,8 +32,8 @@ namespace hybrid_pose {
 ///
 /// * **Thresholds** are in pixels of the query image, one for each kind. The distance that OpenGV sees is the error divided by
 ///   its threshold, so `threshold_` is always 1.0 (OpenGV's default). It is always finite. For the Sampson error, a rig camera
-///   whose focal length the adapter does not know (getRigFocalLength) has about the width of the query's image, as in
-///   sac::hybridRansac.
+///   whose focal length the adapter does not know (getRigFocalLength) has about the width of the query's image, or its focal length
+///   where that is known, as in sac::hybridRansac.
 /// * **Samples** are minimal: m 2D-2D and n 2D-3D correspondences, every such set equally likely, and no further
 ///   correspondence to choose among several solutions. OpenGV wants one model for a sample: it gets the solution that explains
 ///   the whole index list best. That costs one pass over the correspondences for each solution (about 1 us for 400 of them); the
