@@ -190,11 +190,17 @@ bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
 }
 
 // With a known focal length there are no optima along distance and focal length (escapeLocalOptimum): a pose whose inliers are the best
-// one's, but for a few, leads to the same optimum.
+// one's, but for a few, leads to the same optimum. Where most correspondences agree with the best one, its inliers are those near it, too: a pose
+// from a minimal sample has others than its optimum.
 bool HybridSearch::leadsToBest(const QueryPose& pose) const {
   if (!bestIsSignificant_ || !options_.localOptimization || estimated_.focalLength || estimated_.radial) return false;
-  constexpr double kNew = 0.1;
-  const Overlap inliers = overlap(scorer_.inliers(best_.pose), scorer_.inliers(pose));
+  constexpr double kNew = 0.1, kMost = 0.5, kNear = 2;
+  const Evaluation& best = best_.evaluation;
+  const int all = data_.sampler.numberRays() + data_.sampler.numberPoints();
+  const double factor = best.rays + best.points > kMost * all ? kNear : 1;
+  const PerKind<double>& thresholds = scorer_.thresholds();
+  const InlierMasks near = scorer_.within({factor * thresholds.rays, factor * thresholds.points}, best_.pose);
+  const Overlap inliers = overlap(near, scorer_.inliers(pose));
   return inliers.onlySecond < kNew * inliers.both;
 }
 

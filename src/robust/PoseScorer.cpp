@@ -182,8 +182,10 @@ std::vector<double> PoseScorer::squaredPointErrors(const QueryPose& pose) const 
 }
 
 PerKind<std::vector<char>> PoseScorer::inliers(const QueryPose& pose, double factor) const {
-  const PerKind<double> thresholds{std::min(factor * thresholds_.rays, bounds_.rays),
-                                   std::min(factor * thresholds_.points, bounds_.points)};
+  return within({std::min(factor * thresholds_.rays, bounds_.rays), std::min(factor * thresholds_.points, bounds_.points)}, pose);
+}
+
+PerKind<std::vector<char>> PoseScorer::within(const PerKind<double>& thresholds, const QueryPose& pose) const {
   const auto below = [](const std::vector<double>& errors, double threshold) {
     std::vector<char> mask(errors.size());
     std::transform(errors.begin(), errors.end(), mask.begin(), [&](double e) { return e < threshold * threshold; });

@@ -74,6 +74,8 @@ class PoseScorer {
   Evaluation evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance, PerKind<std::vector<double>>& errors) const;
   // Masks of the correspondences whose error is below their kind's threshold times `factor`, but at most its bound.
   PerKind<std::vector<char>> inliers(const QueryPose& pose, double factor = 1) const;
+  // The same for any thresholds, larger than the bounds, too.
+  PerKind<std::vector<char>> within(const PerKind<double>& thresholds, const QueryPose& pose) const;
   // Errors of one kind at a pose, infinite for those that are no inliers.
   std::vector<double> squaredRayErrors(const QueryPose& pose) const;
   std::vector<double> squaredPointErrors(const QueryPose& pose) const;

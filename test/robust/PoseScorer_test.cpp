@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -53,6 +54,28 @@ TEST(PoseScorer, ScoreIsTheSumOverBothKindsWithTheirOwnThresholds) {
   const PerKind<std::vector<char>> masks = msac.inliers(pose);
   EXPECT_EQ(std::accumulate(masks.rays.begin(), masks.rays.end(), 0), msac.evaluate(pose).rays);
   EXPECT_EQ(std::accumulate(masks.points.begin(), masks.points.end(), 0), msac.evaluate(pose).points);
+}
+
+TEST(PoseScorer, InliersAreWithinTheBoundsAndWithinGoesBeyond) {
+  test::Random random(test::testSeed(), 66);
+  const Data data(random, 150, 333, 0.3);
+  PoseScorer scorer(data.arrays, {5, 11}, sac::Scoring::Msac);
+  scorer.setThresholds({3, 8});
+  const FocalPose pose = data.truth();
+  const auto count = [](const PerKind<std::vector<char>>& masks) {
+    return PerKind<int>{std::accumulate(masks.rays.begin(), masks.rays.end(), 0),
+                        std::accumulate(masks.points.begin(), masks.points.end(), 0)};
+  };
+  const auto countBelow = [](const std::vector<double>& squared, double threshold) {
+    return std::count_if(squared.begin(), squared.end(), [&](double e) { return e < threshold * threshold; });
+  };
+  const std::vector<double> rays = scorer.squaredRayErrors(pose), points = scorer.squaredPointErrors(pose);
+  const PerKind<int> capped = count(scorer.inliers(pose, 10)), wide = count(scorer.within({30, 80}, pose));
+  EXPECT_EQ(capped.rays, countBelow(rays, 5));
+  EXPECT_EQ(capped.points, countBelow(points, 11));
+  EXPECT_EQ(wide.rays, countBelow(rays, 30));
+  EXPECT_EQ(wide.points, countBelow(points, 80));
+  EXPECT_GT(wide.points, capped.points);
 }
 
 TEST(PoseScorer, APoseThatCannotWinIsGivenUpAndOneThatCanIsNot) {
