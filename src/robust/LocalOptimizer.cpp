@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "correspondences/PaddedValues.hpp"
+#include "robust/ApparentDepth.hpp"
 #include "robust/medians.hpp"
 
 namespace hybridgv {
@@ -236,20 +237,29 @@ LikelihoodRatio LocalOptimizer::likelihoodRatio(const Optimum& a, const Optimum&
   return std::abs(byA.log) < std::abs(byB.log) ? byA : byB;
 }
 
-QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {
-  const std::vector<double> squaredErrors = scorer_.squaredPointErrors(pose);
-  const double squaredThreshold = scorer_.thresholds().points * scorer_.thresholds().points;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (std::size_t i = 0; i < squaredErrors.size(); ++i)
-    if (squaredErrors[i] < squaredThreshold) {
-      sum += scorer_.arrays().points()[i].point;
-      ++count;
-    }
-  const Eigen::Vector3d middle = sum / std::max(count, 1);
+// Of the inlier points; without them, of where the inlier rays seem to meet the query's viewing rays.
+double LocalOptimizer::depthOfScene(const QueryPose& pose) const {
+  const CorrespondenceArrays& arrays = scorer_.arrays();
   const Eigen::Vector3d axis = pose.rotation.col(2);
+  const InlierMasks inliers = scorer_.inliers(pose);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < inliers.points.size(); ++i) {
+    if (!inliers.points[i]) continue;
+    sum += axis.dot(arrays.points()[i].point - pose.position);
+    ++count;
+  }
+  if (count > 0) return sum / count;
+  std::vector<double> inverses;
+  for (std::size_t i = 0; i < inliers.rays.size(); ++i)
+    if (inliers.rays[i] != 0) inverses.push_back(apparentDepth(arrays.rays()[i], pose).inverse);
+  const double inverse = median(inverses);
+  return inverse > 0 ? 1 / inverse : -axis.dot(pose.position);
+}
+
+QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {
   QueryPose result = pose;
-  result.position -= (factor - 1) * axis.dot(middle - pose.position) * axis;
+  result.position -= (factor - 1) * depthOfScene(pose) * pose.rotation.col(2);
   result.focalLength = std::clamp(factor * pose.focalLength, minFocalLength_, maxFocalLength_);
   return result;
 }

@@ -90,6 +90,7 @@ class LocalOptimizer {
  private:
   // How far away rays may meet their viewing rays. To find a pose, not beyond infinity: there would be more poses that many agree with.
   enum class Reach { Infinity, BeyondInfinity };
+  double depthOfScene(const QueryPose& pose) const;
   // A kind that is not used counts as absent.
   SquaredErrors squaredErrors(const QueryPose& pose, const Kinds& kinds, Reach reach) const;
   // `benefitOfDoubt`: a factor for the odds that a ray is an inlier, if there are as many points.
