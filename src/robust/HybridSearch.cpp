@@ -48,9 +48,18 @@ FocalLengthPrior makePrior(const sac::HybridRansacOptions& options) {
   return {*options.focalLengthPriorPx, options.focalLengthPriorLogDeviation};
 }
 
-FocalLengthGuess makeGuess(const sac::HybridRansacOptions& options, const CorrespondenceArrays& arrays) {
+// If the user does not say: hardly a pinhole image shows more than 136 degrees, and the image is at least as large as what its points fill. Rays
+// that tell little of the focal length may well agree with ever smaller ones, from ever nearer.
+double leastFocalLength(const sac::HybridRansacOptions& options, const CorrespondenceArrays& arrays) {
+  constexpr double kOfImage = 0.2;
+  if (options.minFocalLength > 0 || options.knownFocalLengthPx || options.focalLengthPriorPx) return options.minFocalLength;
+  const double largest = options.initialPose ? options.initialPose->focalLength / 2 : options.maxFocalLength;
+  return std::min(kOfImage * arrays.imageSize(), largest);
+}
+
+FocalLengthGuess makeGuess(const sac::HybridRansacOptions& options, double least, const CorrespondenceArrays& arrays) {
   if (options.knownFocalLengthPx) return FocalLengthGuess::exactly(*options.knownFocalLengthPx);
-  const double least = options.minFocalLength, most = options.maxFocalLength;
+  const double most = options.maxFocalLength;
   const FocalLengthPrior prior = makePrior(options);
   return prior.isGiven() ? FocalLengthGuess::near(prior.focalLength, prior.logDeviation, least, most)
                          : FocalLengthGuess::around(arrays.imageSize(), least, most);
@@ -72,7 +81,8 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
       lens_(makeLens(data_.arrays, options)),
       estimated_{!options.knownFocalLengthPx, lens_.isUnknown},
       choice_(makeStrategies(options.solvers, data_.sampler, knowledgeOf(options))),
-      guess_(makeGuess(options, data_.arrays)),
+      leastFocalLength_(leastFocalLength(options, data_.arrays)),
+      guess_(makeGuess(options, leastFocalLength_, data_.arrays)),
       scorer_(data_.arrays,
               thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, roughlyKnownFocalLength(options),
                               data_.arrays),
@@ -101,7 +111,7 @@ HybridSearch::~HybridSearch() {
 // For the scorer's correspondences.
 LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance,
                                            const QueryFeatures& features) const {
-  return {scorer, chance, features, options_.minFocalLength, options_.maxFocalLength, estimated_, lens_, makePrior(options_)};
+  return {scorer, chance, features, leastFocalLength_, options_.maxFocalLength, estimated_, lens_, makePrior(options_)};
 }
 
 // No more samples than there are. If even a pose with which all correspondences agree were chance, a few are enough.
@@ -286,7 +296,7 @@ Evaluation HybridSearch::evaluate(const QueryPose& pose, const Strategy& strateg
 
 void HybridSearch::considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                                     WorkerState& worker) const {
-  if (!(pose.focalLength >= options_.minFocalLength && pose.focalLength <= options_.maxFocalLength)) return;
+  if (!(pose.focalLength >= leastFocalLength_ && pose.focalLength <= options_.maxFocalLength)) return;
   Candidate candidate;
   candidate.number = number;
   candidate.model.solver = strategy.solver.id;
@@ -613,7 +623,9 @@ sac::FailureReason HybridSearch::verdict(const FinalPose& final) {
 // A large standard deviation is not exact: then the likelihood itself must fall on both sides.
 bool HybridSearch::isDetermined(const FinalPose& final) const {
   constexpr double kLargestTurn = 0.15;  // a standard deviation [rad]
+  constexpr double kAtLeast = 1.001;
   if (!final.isRegular) return false;
+  if (options_.minFocalLength < leastFocalLength_ && !(final.pose.focalLength > kAtLeast * leastFocalLength_)) return false;
   if (!(deviationOfTurn(scorer_, final.pose, final.noise.points.deviation, optimizer_.rayNoise(final)) < kLargestTurn))
     return false;
   const double deviation =

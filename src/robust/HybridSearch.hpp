@@ -167,6 +167,7 @@ class HybridSearch {
   Lens lens_;
   Intrinsics estimated_;
   SolverChoice choice_;
+  double leastFocalLength_;
   FocalLengthGuess guess_;
   PoseScorer scorer_;
   ChanceModel chance_;

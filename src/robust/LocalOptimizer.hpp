@@ -72,7 +72,7 @@ class LocalOptimizer {
   // Whether the likelihood falls clearly where the focal length is half or twice as large.
   bool focalLengthIsDetermined(const FinalPose& final) const;
   // The pose moved along its optical axis so that the inlier points' mean depth is `factor` times as large, and likewise the
-  // focal length. Without points the origin stands for them.
+  // focal length. Without points, the median depth at which the inlier rays seem to meet the query's.
   QueryPose atDistance(const QueryPose& pose, double factor) const;
   // Log of the likelihood of all errors, for the noise that they show, over that of outliers only.
   double logLikelihood(const QueryPose& pose) const;

@@ -90,6 +90,31 @@ TEST(LocalOptimizer, PolishedPoseStaysWhereItIs) {
   EXPECT_NEAR(again.pose.focalLength / first.pose.focalLength, 1, 1e-4);
 }
 
+// The middle of the scene, which keeps its size in the image.
+double distanceTo(const Data& data, const Eigen::Vector3d& middle) {
+  const double factor = 2;
+  const QueryPose farther = data.optimizer.atDistance(data.truth, factor);
+  EXPECT_NEAR(farther.focalLength, factor * data.truth.focalLength, 1e-9 * farther.focalLength);
+  const Eigen::Vector3d moved = data.truth.position - farther.position, axis = data.truth.rotation.col(2);
+  EXPECT_NEAR(axis.cross(moved).norm(), 0, 1e-9 * moved.norm());
+  return axis.dot(moved) / axis.dot(middle - data.truth.position);
+}
+
+TEST(LocalOptimizer, DistanceIsThatOfThePointsOrOfWhereRaysMeetTheQuerysOnes) {
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    test::Random random(test::testSeed() + i, 157);
+    test::SceneOptions options;
+    options.rays = options.points = 60;
+    options.origin = 30 * random.direction();
+    test::HybridScene scene = test::makeHybridScene(random, options);
+    const Data both(scene);
+    EXPECT_NEAR(distanceTo(both, both.arrays.normalization().apply(options.origin)), 1, 0.15) << i;
+    scene.removePoints();
+    const Data raysAlone(scene);
+    EXPECT_NEAR(distanceTo(raysAlone, raysAlone.arrays.normalization().apply(options.origin)), 1, 0.15) << i;
+  }
+}
+
 TEST(LikelihoodRatio, OfAPoseOverItselfIsOne) {
   test::Random random(test::testSeed(), 158);
   const Data data(makeScene(random, 0));

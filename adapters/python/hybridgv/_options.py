@@ -23,7 +23,8 @@ class Options:
         success_probability: the search ends when the probability to have missed a sample of inliers is below 1 minus this
         min_iterations, max_iterations: samples drawn
         time_budget: no new sample after this time [s]
-        min_focal_length, max_focal_length: bounds of the focal length [px]
+        min_focal_length, max_focal_length: bounds of the focal length [px]; a minimum of 0 is automatic: a field of
+            view of 136 degrees
         max_focal_length_deviation: a success needs a standard deviation of the focal length below this share of it
         principal_point_deviation: how far the principal point may be off, as the standard deviation of each coordinate [px]. It
             is allowed for in the covariance and the standard deviations, the pose does not depend on it. Where the middle of

@@ -61,7 +61,10 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
 
-  double minFocalLength = 0;                                        ///< [px] solutions with a smaller one are dropped
+  /// [px] Solutions with a smaller one are dropped. 0 (automatic): a fifth of the width of the image that the image points fill, twice the 95 %
+  /// quantile of their coordinates, which is a field of view of 136 degrees (or half of what initialPose has, if that is less); none if the focal
+  /// length is known, if only roughly.
+  double minFocalLength = 0;
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] solutions with a larger one are dropped
 
   /// [px] The focal length, if it is known: of a calibrated camera, for example. It is kept, and six parameters are estimated. An error
