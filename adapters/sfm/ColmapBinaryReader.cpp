@@ -6,6 +6,7 @@
 #include "RigFiles.hpp"
 #include "UnknownModelSizes.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
+#include "imageName.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -92,7 +93,7 @@ void readImages(const std::string& path, ColmapBuilder& builder) {
     for (double& coefficient : q) coefficient = in.anyNumber("the image's quaternion");
     const Eigen::Vector3d translation = readVector(in, "the image's translation");
     builder.beginImage(in, id, q, translation, in.u32("the image's camera id"));
-    builder.image().name = in.text("the image's name");
+    builder.image().name = usableName(in, builder.mending(), in.text("the image's name"), id);
     readObservations(in, builder);
     builder.endImage();
   }

@@ -6,6 +6,7 @@
 #include "RigFiles.hpp"
 #include "TextScanner.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
+#include "imageName.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -117,7 +118,7 @@ void readImages(const std::string& path, ColmapBuilder& builder) {
     const auto camera = in.integer<std::uint32_t>("the image's camera id");
     if (in.lineEnds()) in.fail("the line ends where the image's name is expected");
     builder.beginImage(in, id, q, translation, camera);
-    builder.image().name = in.restOfLine();
+    builder.image().name = usableName(in, in.mending(), std::string(in.restOfLine()), id);
     if (in.atEndOfFile())
       in.mending().note(Mend::CutLastLine, [&] { return in.error("the file ends where the image's observations are expected"); });
     readObservations(in, builder);

@@ -6,6 +6,7 @@
 #include "CheckArguments.hpp"
 #include "ModelLinks.hpp"
 #include "hybridgv/detail/format.hpp"
+#include "imageName.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -29,8 +30,7 @@ void checkImage(const SparseModel& model, std::size_t index) {
   const std::string name = element("images", index);
   if (image.camera >= model.cameras.size()) throwInvalid(name, "there is no camera with index " + std::to_string(image.camera));
   if (image.name.empty()) throwInvalid(name, "has no name");
-  if (image.name.find('\n') != std::string::npos || image.name.find('\0') != std::string::npos)
-    throwInvalid(name, "the name contains a line break or a zero byte");
+  if (!isUsableName(image.name)) throwInvalid(name, "the name contains a line break or a zero byte");
   if (!image.rotation.allFinite() || !image.position.allFinite())
     throwInvalid(name, "the pose must be finite, its position is " + detail::format(image.position) + ", its rotation " +
                            detail::format(image.rotation));

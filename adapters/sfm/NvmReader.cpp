@@ -9,6 +9,7 @@
 #include "doubleFromChars.hpp"
 #include "hybridgv/adapters/sfm/ModelFiles.hpp"
 #include "hybridgv/detail/format.hpp"
+#include "imageName.hpp"
 
 namespace hybridgv {
 namespace sfm {
@@ -109,7 +110,7 @@ void readCamera(TextScanner& in, std::size_t index, const Header& header, Sparse
   camera.id = image.id = static_cast<std::uint32_t>(index);
   camera.model = CameraModel::NvmRadial;
   image.camera = index;
-  image.name = readName(in, header.hasMatrices ? kNumbersWithMatrix : kNumbers);
+  image.name = usableName(in, in.mending(), readName(in, header.hasMatrices ? kNumbersWithMatrix : kNumbers), image.id);
   const double f = in.anyNumber("the focal length of an image");
   Image posed;
   const std::string fault = readPose(in, header.hasMatrices, posed);

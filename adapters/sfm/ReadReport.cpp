@@ -17,6 +17,8 @@ const char* toString(Mend mend) {
       return "text files end in the middle of a line: its incomplete part left out";
     case Mend::NameWithSpaces:
       return "image names contain spaces that are not quoted: taken as they are";
+    case Mend::UnusableName:
+      return "images have no name, or one with a line break or a zero byte: called image_ID";
     case Mend::UnknownCameraModel:
       return "cameras have an unknown model: their images are not used";
     case Mend::UnusableCamera:

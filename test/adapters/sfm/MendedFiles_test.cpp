@@ -86,6 +86,26 @@ TEST(MendedFiles, ImagesMayNameRemovedCameras) {
   EXPECT_EQ(model.images.size(), 3u);
 }
 
+// As scripts leave them that write no names. What was read can be written again, in either form.
+TEST(MendedFiles, ImagesMayHaveNoName) {
+  const SparseModel original = scene();
+  const Image& image = original.images[1];
+  const TemporaryFolder folder, written;
+  for (const std::string& name : {std::string(), std::string("two\nlines"), std::string("\n")}) {
+    writeColmapBinary(folder.path(), original);
+    std::string contents = folder.read("images.bin");
+    const std::size_t at = contents.find(image.name + '\0');
+    ASSERT_NE(at, std::string::npos);
+    folder.write("images.bin", contents.replace(at, image.name.size(), name));
+    const SparseModel model = expectMends(folder.path(), {{Mend::UnusableName, 1}});
+    ASSERT_EQ(model.images.size(), original.images.size());
+    EXPECT_EQ(model.images[1].name, "image_" + std::to_string(image.id));
+    EXPECT_EQ(model.images[0].name, original.images[0].name);
+    writeColmapText(written.path(), model);
+    EXPECT_EQ(readModel(written.path()).images[1].name, model.images[1].name);
+  }
+}
+
 TEST(MendedFiles, PointsMayBeInfiniteInAnySystemsSpelling) {
   for (const char* word :
        {"nan", "-nan", "inf", "-inf", "NaN", "Infinity", "1.#INF", "-1.#IND", "1.#QNAN", "-nan(ind)", "1e999"}) {

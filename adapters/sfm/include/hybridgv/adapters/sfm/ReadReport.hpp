@@ -14,18 +14,19 @@ namespace sfm {
 
 /// What maps written by other programs and scripts have wrong without being useless.
 enum class Mend {
-  ByteOrderMark,              ///< a byte order mark at the start of a text file, or UTF-16 instead of UTF-8: converted
-  FractionForInteger,         ///< 128.0 where an integer belongs: taken as 128
-  ColourOutOfRange,           ///< a colour that is not in 0 .. 255: clamped, 0 if it is not a number
-  CutLastLine,                ///< the last line of a text file is not complete: its incomplete part left out
-  NameWithSpaces,             ///< an NVM image name with spaces that are not quoted: taken as it is
-  UnknownCameraModel,         ///< a camera of an unknown model: its images are not used, only carried along
-  UnusableCamera,             ///< a camera whose focal length or parameters make no sense: its images are not registered
-  ImageWithoutCamera,         ///< an image whose camera is missing: left out
-  ImageWithoutUsablePose,     ///< an image whose rotation or position is no such thing: not registered
-  PointNotFinite,             ///< a point at infinity or nowhere: left out
-  PointErrorNotFinite,        ///< a point whose stored error is not a number: set to unknown
-  ObservationNotFinite,       ///< an observation that is nowhere in the image: kept at (0, 0), without its point
+  ByteOrderMark,           ///< a byte order mark at the start of a text file, or UTF-16 instead of UTF-8: converted
+  FractionForInteger,      ///< 128.0 where an integer belongs: taken as 128
+  ColourOutOfRange,        ///< a colour that is not in 0 .. 255: clamped, 0 if it is not a number
+  CutLastLine,             ///< the last line of a text file is not complete: its incomplete part left out
+  NameWithSpaces,          ///< an NVM image name with spaces that are not quoted: taken as it is
+  UnusableName,            ///< an image whose name is empty, or has a line break or a zero byte: called image_ID, ID its number
+  UnknownCameraModel,      ///< a camera of an unknown model: its images are not used, only carried along
+  UnusableCamera,          ///< a camera whose focal length or parameters make no sense: its images are not registered
+  ImageWithoutCamera,      ///< an image whose camera is missing: left out
+  ImageWithoutUsablePose,  ///< an image whose rotation or position is no such thing: not registered
+  PointNotFinite,          ///< a point at infinity or nowhere: left out
+  PointErrorNotFinite,     ///< a point whose stored error is not a number: set to unknown
+  ObservationNotFinite,    ///< an observation that is nowhere in the image: kept at (0, 0), without its point
   ObservationOfMissingPoint,  ///< an observation names a point that is not there: kept, without a point
   TrackOfMissingImage,        ///< a track names an image that is not there: left out of the track
   TrackOfUnregisteredImage,   ///< a track names an image without pose: left out of the track
