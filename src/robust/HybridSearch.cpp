@@ -1,14 +1,12 @@
 #include "robust/HybridSearch.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "robust/MirroredPose.hpp"
+#include "robust/LikelierPose.hpp"
 #include "robust/Overlap.hpp"
 #include "robust/SampleCheck.hpp"
 #include "robust/TurnAboutLine.hpp"
@@ -483,58 +481,11 @@ FinalPose HybridSearch::bestBeside(FinalPose best) const {
   return best;
 }
 
-bool HybridSearch::areDistinct(const FinalPose& pose, const QueryPose& other) const {
-  constexpr double kSame = 4;  // standard deviations
-  if (!pose.isRegular) return true;
-  const ParameterVector change = changeOf(pose.pose, other, estimated_);
-  return change.dot(pose.covariance.ldlt().solve(change)) > kSame * kSame;
-}
-
-// To the optima, those that the starts lead to, if they are new and turned against all by at least so much.
-void HybridSearch::addOptimaFrom(const std::vector<QueryPose>& starts, double leastTurn, const LocalOptimizer& optimizer,
-                                 std::vector<FinalPose>& optima) const {
-  const auto isNew = [&](const QueryPose& pose) {
-    return std::all_of(optima.begin(), optima.end(), [&](const FinalPose& optimum) {
-      const Eigen::Matrix3d turn = optimum.pose.rotation.transpose() * pose.rotation;
-      return areDistinct(optimum, pose) && Eigen::AngleAxisd(turn).angle() >= leastTurn;
-    });
-  };
-  for (const QueryPose& start : starts) {
-    const QueryPose refined = optimizer.refine(start);
-    if (!isNew(refined)) continue;
-    const FinalPose optimum = optimizer.finish(optimizer.polish(refined));
-    if (isNew(optimum.pose)) optima.push_back(optimum);
-  }
-}
-
-// Where the focal length is known, little speaks against the mirrored pose of a flat scene: an optimum of its own, which the search may well
-// have found instead. (A focal length that such a scene determines leaves no doubt about the pose.)
 FinalPose HybridSearch::likelierOfMirrored(const FinalPose& pose, const LookAlikes& others, const LocalOptimizer& optimizer,
                                            const PoseScorer& scorer) {
-  constexpr double kClear = 6, kClearDeviations = 1.5;  // log-likelihood, and that by what it scatters
-  constexpr double kMostMissing = 0.5;                  // of the inliers, in the other pose
-  // Nearer ones [rad] lie in the same valley of the likelihood, which is as long as the turn about a line is uncertain.
-  constexpr double kLeastTurn = 0.35;
-  mirrored_.reset();
-  if (!pose.isRegular) return pose;
-  std::vector<FinalPose> optima{pose};
-  addOptimaFrom(others.mirrored, 0, optimizer, optima);
-  addOptimaFrom(others.turned, kLeastTurn, optimizer, optima);
-  const FinalPose* best = &optima[0];
-  for (const FinalPose& optimum : optima)
-    if (optimum.isRegular && optimizer.likelihoodRatio(optimum, *best).log > 0) best = &optimum;
-  double least = std::numeric_limits<double>::infinity();
-  for (const FinalPose& optimum : optima) {
-    if (&optimum == best) continue;
-    const LikelihoodRatio ratio = optimizer.likelihoodRatio(*best, optimum);
-    const double loss = std::abs(ratio.log);
-    if (!(loss < std::min(least, std::max(kClear, kClearDeviations * ratio.deviation)))) continue;
-    const Overlap inliers = overlap(scorer.inliers(best->pose), scorer.inliers(optimum.pose));
-    if (inliers.onlyFirst >= kMostMissing * (inliers.onlyFirst + inliers.both)) continue;
-    mirrored_ = optimum.pose;
-    least = loss;
-  }
-  return *best;
+  const LikelierPose likelier = likelierPose(pose, others, optimizer, scorer, estimated_);
+  mirrored_ = likelier.nearlyAsLikely;
+  return likelier.pose;
 }
 
 FinalPose HybridSearch::polishedAtDistance(const FinalPose& pose, double factor) const {

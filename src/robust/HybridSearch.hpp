@@ -137,9 +137,6 @@ class HybridSearch {
   // The likeliest of the pose and those that look the same; what is nearly as likely becomes mirrored().
   FinalPose likelierOfMirrored(const FinalPose& pose, const LookAlikes& others, const LocalOptimizer& optimizer,
                                const PoseScorer& scorer);
-  void addOptimaFrom(const std::vector<QueryPose>& starts, double leastTurn, const LocalOptimizer& optimizer,
-                     std::vector<FinalPose>& optima) const;
-  bool areDistinct(const FinalPose& pose, const QueryPose& other) const;
   // Of log f.
   double deviationOf(const FinalPose& pose) const;
   void takeOutDistortion();

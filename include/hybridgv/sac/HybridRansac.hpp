@@ -91,7 +91,8 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 ///
 /// The Sampson error uses the rig camera's own focal length where the adapter knows it (getRigFocalLength), else about the width of
 /// the query's image: twice the 95 % quantile of the larger coordinates of its points. (With the query's focal length, the error of
-/// any rays would vanish as that goes to 0, and fall as it grows. One that is known, if only roughly, is the least.) Image points, viewing rays and points must be finite.
+/// any rays would vanish as that goes to 0, and fall as it grows. One that is known, if only roughly, is the least.) Image points,
+/// viewing rays and points must be finite.
 ///
 /// The inliers are too many to be chance if the expected number of wrong poses with as many is below 1e-6. That is judged by the
 /// data themselves: by inliers that are *different* (a rig point, a viewing ray or a feature of the query counts once, however
