@@ -14,10 +14,21 @@ namespace {
 
 constexpr std::size_t kRayColumns = 13, kPointColumns = 5;
 
-// The place of a quantile.
-std::size_t placeOf(double share, const std::vector<double>& values) {
-  return static_cast<std::size_t>(share * static_cast<double>(values.size()));
+// Never the largest of several values; 0 if there are none. Changes their order.
+double quantile(std::vector<double>& values, double share) {
+  const auto place = [&] { return static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)); };
+  return values.empty() ? 0 : math::nthSmallest(values, place());
 }
+
+// The 95 % quantile, unless that of three quarters is far below it: then it is one of the few far away that must not decide, as where two of
+// sixteen are.
+double nearlyAllBelow(std::vector<double> values) {
+  constexpr double kMostOfQuartile = 4;
+  const double most = quantile(values, 0.95);
+  return std::min(most, kMostOfQuartile * quantile(values, 0.75));
+}
+
+double largerCoordinate(double u, double v) { return std::max(std::abs(u), std::abs(v)); }
 
 // Coordinate-wise median and median distance from it: a few points far away must not decide.
 Normalization normalizationOf(const std::vector<Eigen::Vector3d>& positions) {
@@ -175,23 +186,27 @@ void CorrespondenceArrays::normalizePoint(std::size_t i) {
   for (std::size_t k = 0; k < kPointColumns; ++k) pointColumns_[k * rows + i] = values[k];
 }
 
-double CorrespondenceArrays::imageSize() const {
-  constexpr double kShare = 0.95;
-  std::vector<double> coordinates;
-  for (const RayMatch& match : rays_) coordinates.push_back(std::max(std::abs(match.u), std::abs(match.v)));
-  for (const PointMatch& match : points_) coordinates.push_back(std::max(std::abs(match.u), std::abs(match.v)));
-  if (coordinates.empty()) return 0;
-  return 2 * math::nthSmallest(coordinates, placeOf(kShare, coordinates));
+template <class Size>
+std::vector<double> CorrespondenceArrays::sizesOfImagePoints(const Size& size) const {
+  std::vector<double> sizes;
+  sizes.reserve(rays_.size() + points_.size());
+  for (const RayMatch& match : rays_) sizes.push_back(size(match.u, match.v));
+  for (const PointMatch& match : points_) sizes.push_back(size(match.u, match.v));
+  return sizes;
+}
+
+double CorrespondenceArrays::imageSize() const { return 2 * nearlyAllBelow(sizesOfImagePoints(largerCoordinate)); }
+
+// Of an image that is filled evenly, half of the points have both coordinates below the root of 1/2 of the largest.
+double CorrespondenceArrays::leastImageSize() const {
+  std::vector<double> coordinates = sizesOfImagePoints(largerCoordinate);
+  return 2 * std::sqrt(2.) * quantile(coordinates, 0.5);
 }
 
 double CorrespondenceArrays::imageRadius() const {
-  constexpr double kShare = 0.95, kMostOfQuantile = 2;
-  std::vector<double> radii;
-  for (const RayMatch& match : rays_) radii.push_back(std::hypot(match.u, match.v));
-  for (const PointMatch& match : points_) radii.push_back(std::hypot(match.u, match.v));
-  if (radii.empty()) return 0;
-  const double quantile = math::nthSmallest(radii, placeOf(kShare, radii));
-  return std::min(kMostOfQuantile * quantile, *std::max_element(radii.begin(), radii.end()));
+  constexpr double kMostOfThose = 2;
+  const std::vector<double> radii = sizesOfImagePoints([](double u, double v) { return std::hypot(u, v); });
+  return radii.empty() ? 0 : std::min(kMostOfThose * nearlyAllBelow(radii), *std::max_element(radii.begin(), radii.end()));
 }
 
 void CorrespondenceArrays::fixUnknownFocalLengths(double least) {

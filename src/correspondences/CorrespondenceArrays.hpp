@@ -48,9 +48,11 @@ class CorrespondenceArrays {
   // About the width of the query's image: twice the largest coordinate, if the image points reach the image's border evenly. A few
   // points far away do not decide. 0 if there are none.
   double imageSize() const;
+  // The same by the median of these coordinates, which wrong matches do not move much; of image points that crowd in the middle it is too small.
+  double leastImageSize() const;
 
-  // How far image points are from the principal point: the largest distance, but at most twice the 95 % quantile of the distances, so
-  // that a few far away do not decide. 0 without image points.
+  // How far image points are from the principal point: the largest distance, but at most twice what nearly all are below,
+  // so that a few far away do not decide. 0 without image points.
   double imageRadius() const;
 
   const Normalization& normalization() const { return normalization_; }
@@ -66,6 +68,9 @@ class CorrespondenceArrays {
   PointArrays pointArrays() const;
 
  private:
+  // Of every image point, by size(u, v).
+  template <class Size>
+  std::vector<double> sizesOfImagePoints(const Size& size) const;
   void resize(std::size_t rays, std::size_t points);
   // A correspondence as it was given, and what of its columns does not depend on the normalization.
   void setRay(std::size_t i, const RigRay& ray);

@@ -38,6 +38,16 @@ ApparentDepth apparentDepth(const RayMatch& ray, const QueryPose& pose) {
   return {line.inverseDepthOf(pinholePoint(ray, pose).head<2>()), std::abs(line.axial) / line.b.norm()};
 }
 
+std::optional<ApparentPlace> apparentPlace(const RayMatch& ray, const QueryPose& pose) {
+  const Eigen::Vector3d imagePoint = pinholePoint(ray, pose);
+  const ApparentDepth depth = apparentDepth(ray, pose);
+  const double z = 1 / depth.inverse, f = pose.focalLength;
+  const Eigen::Vector3d direction = pose.rotation * Eigen::Vector3d(imagePoint.x() / f, imagePoint.y() / f, 1);
+  const ApparentPlace place{pose.position + z * direction, depth.perPixel * z * z * direction};
+  const bool isInFront = z > 0 && imagePoint.z() > 0 && place.position.allFinite() && place.perPixel.allFinite();
+  return isInFront ? std::optional<ApparentPlace>(place) : std::nullopt;
+}
+
 std::optional<Eigen::Vector2d> movedToDepth(const RayMatch& ray, const QueryPose& pose, double inverse) {
   const EpipolarLine line(ray, pose);
   const Eigen::Vector3d imagePoint = pinholePoint(ray, pose);

@@ -19,6 +19,14 @@ struct ApparentDepth {
 
 ApparentDepth apparentDepth(const correspondences::RayMatch& ray, const QueryPose& pose);
 
+// Where that is in the frame of the rays, and how far 1 px along the line moves it there.
+struct ApparentPlace {
+  Eigen::Vector3d position, perPixel;
+};
+
+// None behind the camera, at infinity, or where the query is in the rig camera.
+std::optional<ApparentPlace> apparentPlace(const correspondences::RayMatch& ray, const QueryPose& pose);
+
 // The image point moved along its epipolar line, as the point on the ray moves to another inverse depth. None if it is not seen there.
 std::optional<Eigen::Vector2d> movedToDepth(const correspondences::RayMatch& ray, const QueryPose& pose, double inverse);
 

@@ -47,12 +47,14 @@ FocalLengthPrior makePrior(const sac::HybridRansacOptions& options) {
 }
 
 // If the user does not say: hardly a pinhole image shows more than 136 degrees, and the image is at least as large as what its points fill. Rays
-// that tell little of the focal length may well agree with ever smaller ones, from ever nearer.
+// that tell little of the focal length may well agree with ever smaller ones, from ever nearer. Whoever allows no much larger ones, or starts
+// from there, means it.
 double leastFocalLength(const sac::HybridRansacOptions& options, const CorrespondenceArrays& arrays) {
-  constexpr double kOfImage = 0.2;
+  constexpr double kOfImage = 0.2, kMuchLarger = 2;
   if (options.minFocalLength > 0 || options.knownFocalLengthPx || options.focalLengthPriorPx) return options.minFocalLength;
-  const double largest = options.initialPose ? options.initialPose->focalLength / 2 : options.maxFocalLength;
-  return std::min(kOfImage * arrays.imageSize(), largest);
+  const double least = kOfImage * arrays.leastImageSize();
+  const double meant = options.initialPose ? options.initialPose->focalLength : options.maxFocalLength;
+  return kMuchLarger * least < std::min(meant, options.maxFocalLength) ? least : 0;
 }
 
 FocalLengthGuess makeGuess(const sac::HybridRansacOptions& options, double least, const CorrespondenceArrays& arrays) {

@@ -14,7 +14,7 @@
 #include "robust/GatheredSamples.hpp"
 #include "robust/Lens.hpp"
 #include "robust/LocalOptimizer.hpp"
-#include "robust/MirroredPose.hpp"
+#include "robust/LookAlikes.hpp"
 #include "robust/PoseScorer.hpp"
 #include "robust/SearchData.hpp"
 #include "robust/Significance.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "robust/LocalOptimizer.hpp"
-#include "robust/MirroredPose.hpp"
+#include "robust/LookAlikes.hpp"
 #include "robust/PoseScorer.hpp"
 
 namespace hybridgv {

@@ -37,11 +37,6 @@ constexpr double kPriorOfTruncated = 0.05;
 // Ratios of deviations, see allowForHiddenErrors. The second one was found on real models.
 constexpr double kClearlyLarger = 2.5, kHiddenShare = 1.5;
 
-std::size_t countBelow(const std::vector<double>& squaredErrors, double threshold) {
-  const auto isBelow = [&](double e) { return e < threshold * threshold; };
-  return static_cast<std::size_t>(std::count_if(squaredErrors.begin(), squaredErrors.end(), isBelow));
-}
-
 // The variance of one kind's errors, of which `count` are known.
 struct Measured {
   double variance = 0;
@@ -250,11 +245,13 @@ double LocalOptimizer::depthOfScene(const QueryPose& pose) const {
     ++count;
   }
   if (count > 0) return sum / count;
-  std::vector<double> inverses;
-  for (std::size_t i = 0; i < inliers.rays.size(); ++i)
-    if (inliers.rays[i] != 0) inverses.push_back(apparentDepth(arrays.rays()[i], pose).inverse);
-  const double inverse = median(inverses);
-  return inverse > 0 ? 1 / inverse : -axis.dot(pose.position);
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < inliers.rays.size(); ++i) {
+    if (!inliers.rays[i]) continue;
+    if (const std::optional<ApparentPlace> place = apparentPlace(arrays.rays()[i], pose))
+      depths.push_back(axis.dot(place->position - pose.position));
+  }
+  return depths.empty() ? -axis.dot(pose.position) : median(depths);
 }
 
 QueryPose LocalOptimizer::atDistance(const QueryPose& pose, double factor) const {

@@ -1,6 +1,7 @@
 // The size of an image region that holds most of some points.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace hybridgv {
 namespace robust {
 
-// A few points far away must not decide: it is the box that leaves out a twentieth at each side, enlarged to the size that it would
+// A few points far away must not decide: it is the box that leaves out a twentieth at each side, but one point at least, enlarged to the size that it would
 // have for evenly spread points.
 class RobustBox {
  public:
@@ -29,7 +30,9 @@ class RobustBox {
   static double extent(std::vector<double> values) {
     if (values.empty()) return 0;
     constexpr double kLeftOut = 0.05;
-    const auto skip = static_cast<std::size_t>(kLeftOut * static_cast<double>(values.size()));
+    constexpr std::size_t kEnoughForOne = 8;
+    const std::size_t least = values.size() < kEnoughForOne ? 0 : 1;
+    const std::size_t skip = std::max(least, static_cast<std::size_t>(kLeftOut * static_cast<double>(values.size())));
     const double low = math::nthSmallest(values, skip), high = math::nthSmallest(values, values.size() - 1 - skip);
     return (high - low) / (1 - 2 * static_cast<double>(skip) / static_cast<double>(values.size()));
   }

@@ -1,12 +1,13 @@
 #include "robust/TurnAboutLine.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "robust/ApparentDepth.hpp"
+#include "robust/PrincipalAxes.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -40,30 +41,25 @@ Places placesOfRays(const PoseScorer& scorer, const QueryPose& pose, double devi
   const double squared = scorer.thresholds().rays * scorer.thresholds().rays;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!(errors[i] < squared)) continue;
-    const correspondences::RayMatch& ray = scorer.arrays().rays()[i];
-    const ApparentDepth depth = apparentDepth(ray, pose);
-    const double z = 1 / depth.inverse, error = std::sqrt(2.) * deviation * depth.perPixel * z * z;
-    const Eigen::Vector3d direction = pose.rotation * Eigen::Vector3d(ray.u / pose.focalLength, ray.v / pose.focalLength, 1);
-    const Place place{pose.position + z * direction, error * direction, kAcross};
-    if (place.position.allFinite() && place.noise.allFinite()) places.push_back(place);
+    if (const std::optional<ApparentPlace> place = apparentPlace(scorer.arrays().rays()[i], pose))
+      places.push_back({place->position, std::sqrt(2.) * deviation * place->perPixel, kAcross});
   }
   return places;
 }
 
 struct Line {
   explicit Line(const Places& places) {
-    for (const Place& place : places) centre += place.position / static_cast<double>(places.size());
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    for (const Place& place : places) scatter.noalias() += (place.position - centre) * (place.position - centre).transpose();
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(scatter);
-    direction = solver.eigenvectors().col(2);
+    std::vector<Eigen::Vector3d> positions;
+    for (const Place& place : places) positions.push_back(place.position);
+    const PrincipalAxes axes(positions);
+    centre = axes.centre;
+    direction = axes.directions.col(2);
   }
   double squaredDistance(const Eigen::Vector3d& offset) const {
     return (offset - direction.dot(offset) * direction).squaredNorm();
   }
 
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction;
+  Eigen::Vector3d centre, direction;
 };
 
 // What places tell of the turn: the inverse of its variance. As many as are beside the line by chance, those that lie farthest, do not count.

@@ -1,6 +1,7 @@
 // Medians of squared errors, and what they are for normal errors.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,12 @@ namespace robust {
 constexpr double kMedianOfOneSquare = 0.4549364231195728, kMedianOfTwoSquares = 1.3862943611198906;
 
 using math::median;
+
+// How many are below a threshold.
+inline std::size_t countBelow(const std::vector<double>& squaredErrors, double threshold) {
+  const auto isBelow = [&](double e) { return e < threshold * threshold; };
+  return static_cast<std::size_t>(std::count_if(squaredErrors.begin(), squaredErrors.end(), isBelow));
+}
 
 // The squared errors of those below a threshold.
 inline std::vector<double> below(const std::vector<double>& squaredErrors, double threshold) {

@@ -52,6 +52,31 @@ TEST_P(ApparentDepthOf, IsThatOfThePoint) {
   }
 }
 
+TEST_P(ApparentDepthOf, PlaceIsThePoint) {
+  test::Random random(test::testSeed(), 165);
+  for (int i = 0; i < 1000; ++i) {
+    const Meeting meeting(random, GetParam());
+    const std::optional<ApparentPlace> place = apparentPlace(meeting.ray, meeting.pose);
+    ASSERT_TRUE(place);
+    const double distance = (meeting.point - meeting.pose.position).norm();
+    EXPECT_NEAR((place->position - meeting.point).norm() / distance, 0, 1e-5);
+    EXPECT_NEAR(place->perPixel.cross(meeting.point - meeting.pose.position).norm(), 0, 1e-5 * place->perPixel.norm() * distance);
+  }
+}
+
+TEST(ApparentPlace, IsNoneInTheRigCameraAndBehindTheQuery) {
+  test::Random random(test::testSeed(), 166);
+  for (int i = 0; i < 100; ++i) {
+    Meeting meeting(random, 0);
+    QueryPose turned = meeting.pose;
+    turned.rotation = turned.rotation * Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    meeting.ray.v = -meeting.ray.v;
+    EXPECT_FALSE(apparentPlace(meeting.ray, turned));
+    meeting.ray.centre = meeting.pose.position;
+    EXPECT_FALSE(apparentPlace(meeting.ray, meeting.pose));
+  }
+}
+
 TEST_P(ApparentDepthOf, ThePlaceMovesAsThePointOnTheRayDoes) {
   test::Random random(test::testSeed(), 161);
   int seen = 0;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "HybridScene.hpp"
-#include "robust/MirroredPose.hpp"
+#include "robust/LookAlikes.hpp"
 #include "statistics.hpp"
 
 namespace hybridgv {
@@ -112,6 +112,22 @@ TEST(LocalOptimizer, DistanceIsThatOfThePointsOrOfWhereRaysMeetTheQuerysOnes) {
     scene.removePoints();
     const Data raysAlone(scene);
     EXPECT_NEAR(distanceTo(raysAlone, raysAlone.arrays.normalization().apply(options.origin)), 1, 0.15) << i;
+  }
+}
+
+TEST(LocalOptimizer, DistanceIsFiniteWhereTheQueryIsInARigCamera) {
+  test::Random random(test::testSeed(), 156);
+  test::SceneOptions options;
+  options.rays = 60;
+  options.points = 0;
+  test::HybridScene scene = test::makeHybridScene(random, options);
+  for (const bool inAll : {false, true}) {
+    for (std::size_t k = 0; k < scene.offsets.size(); ++k)
+      if (inAll || k == 0) scene.offsets[k] = scene.truth.position;
+    const Data data(scene);
+    const QueryPose farther = data.optimizer.atDistance(data.truth, 2);
+    EXPECT_TRUE(farther.position.allFinite());
+    EXPECT_TRUE(data.optimizer.finish(data.optimizer.keep(data.truth)).pose.position.allFinite());
   }
 }
 

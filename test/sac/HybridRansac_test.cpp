@@ -458,52 +458,7 @@ TEST(HybridRansac, InitialPoseIsUsedIfItIsGoodAndDoesNoHarmIfNot) {
   EXPECT_TRUE(isRight(bad.pose, scene.truth));
 }
 
-TEST(HybridRansac, FocalBoundsAreKept) {
-  test::Random random(test::testSeed(), 92);
-  const HybridScene scene = test::makeHybridScene(random, noisy(100, 100, 0.2));
-  HybridRansacOptions options = thresholds();
-  options.maxIterations = 300;
-  options.minFocalLength = 1.2 * scene.truth.focalLength;
-  const HybridRansacResult result = hybridRansac(scene.adapter(), options);
-  if (result.score > 0) {
-    EXPECT_GE(result.pose.focalLength, options.minFocalLength);
-  }
-  options.minFocalLength = 0.9 * scene.truth.focalLength;
-  options.maxFocalLength = 1.1 * scene.truth.focalLength;
-  EXPECT_TRUE(hybridRansac(scene.adapter(), options).success);
-}
-
 // Good correspondences first: far fewer samples than uniform sampling, with the same result.
-// 60 points all over an image of 160 degrees.
-HybridScene veryWideScene(std::uint64_t stream) {
-  test::Random random(test::testSeed() + stream, 190);
-  HybridScene scene = test::makeHybridScene(random, noisy(0, 60, 0));
-  scene.truth.focalLength = 100;
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    const double depth = random.uniform(1, 3), reach = 5.7;
-    const Eigen::Vector3d inQuery(random.uniform(-reach, reach), random.uniform(-reach, reach), 1);
-    scene.points[i] = scene.truth.position + depth * (scene.truth.rotation * inQuery);
-    scene.image2d3d[i] = test::noisyImagePoint(random, test::project(scene.truth, scene.points[i]), 0.5);
-  }
-  return scene;
-}
-
-TEST(HybridRansac, AFieldOfViewThatNoCameraHasIsFoundOnlyIfItIsAllowed) {
-  for (std::uint64_t i = 0; i < 10; ++i) {
-    const HybridScene scene = veryWideScene(i);
-    HybridRansacOptions options;
-    options.seed = i;
-    EXPECT_FALSE(hybridRansac(scene.adapter(), options).success) << "scene " << i;
-    options.minFocalLength = 20;
-    const HybridRansacResult allowed = hybridRansac(scene.adapter(), options);
-    EXPECT_TRUE(allowed.success) << "scene " << i;
-    EXPECT_NEAR(allowed.pose.focalLength, 100, 2) << "scene " << i;
-    options.minFocalLength = 0;
-    options.initialPose = scene.truth;
-    EXPECT_TRUE(hybridRansac(scene.adapter(), options).success) << "scene " << i;
-  }
-}
-
 TEST(HybridRansac, QualityOrderSpeedsUpTheSearch) {
   test::Random random(test::testSeed(), 93);
   HybridScene scene = test::makeHybridScene(random, noisy(400, 400, 0.9));

@@ -182,7 +182,7 @@ HybridScene flatScene(Random& random, double halfSize, int ofEachKind, double ou
 
 constexpr double kRightAngle = 0.17;
 
-// A small flat object looks the same in a second pose (MirroredPose), as far as perspective does not tell.
+// A small flat object looks the same in a second pose (LookAlikes), as far as perspective does not tell.
 TEST(KnownFocalLength, AFlatObjectFarAwayIsNoSuccessInTheWrongOfItsTwoPoses) {
   int successes = 0, wrong = 0, ambiguous = 0, oneIsRight = 0;
   for (std::uint64_t i = 0; i < 150; ++i) {

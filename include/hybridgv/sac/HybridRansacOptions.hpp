@@ -61,9 +61,9 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   int maxIterations = 10000;                                           ///< samples drawn at most
   double timeBudgetSeconds = std::numeric_limits<double>::infinity();  ///< no new sample after this time
 
-  /// [px] Solutions with a smaller one are dropped. 0 (automatic): a fifth of the width of the image that the image points fill, twice the 95 %
-  /// quantile of their coordinates, which is a field of view of 136 degrees (or half of what initialPose has, if that is less); none if the focal
-  /// length is known, if only roughly.
+  /// [px] Solutions with a smaller one are dropped. 0 (automatic): a fifth of the width of the image that the image points fill, by the median of
+  /// their coordinates: a field of view of 136 degrees. None if the focal length is known, if only roughly, or if maxFocalLength or that of
+  /// initialPose is not at least twice as large.
   double minFocalLength = 0;
   double maxFocalLength = std::numeric_limits<double>::infinity();  ///< [px] solutions with a larger one are dropped
 

@@ -1,6 +1,5 @@
-#include "robust/MirroredPose.hpp"
+#include "robust/LookAlikes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,19 +7,14 @@
 #include <vector>
 
 #include "robust/ApparentDepth.hpp"
+#include "robust/PrincipalAxes.hpp"
+#include "robust/medians.hpp"
 
 namespace hybridgv {
 namespace robust {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 using Positions = std::vector<Eigen::Vector3d>;
-
-std::size_t countBelow(const std::vector<double>& squaredErrors, double threshold) {
-  return static_cast<std::size_t>(
-      std::count_if(squaredErrors.begin(), squaredErrors.end(), [=](double e) { return e < threshold * threshold; }));
-}
 
 Positions inlierPoints(const PoseScorer& scorer, const std::vector<double>& squaredErrors) {
   Positions positions;
@@ -34,39 +28,15 @@ Positions inlierPoints(const PoseScorer& scorer, const std::vector<double>& squa
 void addInlierRays(const PoseScorer& scorer, const std::vector<double>& squaredErrors, const QueryPose& pose,
                    Positions& positions) {
   const double squared = scorer.thresholds().rays * scorer.thresholds().rays;
-  struct Place {
-    Eigen::Vector3d position;
-    double uncertainty;
-  };
-  std::vector<Place> places;
+  std::vector<ApparentPlace> places;
   for (std::size_t i = 0; i < squaredErrors.size(); ++i) {
     if (!(squaredErrors[i] < squared)) continue;
-    const correspondences::RayMatch& ray = scorer.arrays().rays()[i];
-    const ApparentDepth apparent = apparentDepth(ray, pose);
-    const double depth = 1 / apparent.inverse;
-    const Eigen::Vector3d direction(ray.u / pose.focalLength, ray.v / pose.focalLength, 1);
-    const Place place{pose.position + depth * (pose.rotation * direction), apparent.perPixel * depth * depth};
-    if (depth > 0 && place.position.allFinite() && std::isfinite(place.uncertainty)) places.push_back(place);
+    if (const std::optional<ApparentPlace> place = apparentPlace(scorer.arrays().rays()[i], pose)) places.push_back(*place);
   }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.uncertainty < b.uncertainty; });
+  std::sort(places.begin(), places.end(),
+            [](const ApparentPlace& a, const ApparentPlace& b) { return a.perPixel.squaredNorm() < b.perPixel.squaredNorm(); });
   for (std::size_t i = 0; i < (places.size() + 1) / 2; ++i) positions.push_back(places[i].position);
 }
-
-// Principal axes of at least three positions, and the standard deviations along them, the smallest first.
-struct Extents {
-  explicit Extents(const Positions& positions) {
-    for (const Eigen::Vector3d& position : positions) centre += position / static_cast<double>(positions.size());
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    for (const Eigen::Vector3d& position : positions) scatter.noalias() += (position - centre) * (position - centre).transpose();
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(scatter);
-    axes = solver.eigenvectors();
-    deviations = (solver.eigenvalues() / static_cast<double>(positions.size())).cwiseMax(0).cwiseSqrt();
-  }
-
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), deviations;
-  Eigen::Matrix3d axes;
-};
 
 Eigen::Matrix3d reflection(const Eigen::Vector3d& axis) { return Eigen::Matrix3d::Identity() - 2 * axis * axis.transpose(); }
 
@@ -81,8 +51,8 @@ std::optional<Eigen::Matrix3d> mirroring(const Eigen::Vector3d& normal, const Ei
 // as large.
 class Turns {
  public:
-  Turns(const Extents& extents, const QueryPose& pose, double largestError)
-      : axes_(extents.axes), deviations_(extents.deviations), offset_(extents.centre - pose.position) {
+  Turns(const PrincipalAxes& extents, const QueryPose& pose, double largestError)
+      : axes_(extents.directions), deviations_(extents.deviations), offset_(extents.centre - pose.position) {
     isValid_ = axes_.allFinite() && deviations_[2] > 0;
     largestDeviation_ = largestError / 2 * offset_.norm() / pose.focalLength;
   }
@@ -100,7 +70,7 @@ class Turns {
     const Eigen::Vector3d line = axes_.col(2), across = line.cross(direction()).cross(line);
     const std::optional<Eigen::Matrix3d> mirrored = mirroring(across.normalized(), direction());
     for (int k = 0; k < kTurns; ++k) {
-      const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * 2 * kPi / kTurns, line).toRotationMatrix();
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * 2 * static_cast<double>(EIGEN_PI) / kTurns, line).toRotationMatrix();
       if (k > 0) turns.push_back(turn);
       if (mirrored) turns.push_back(turn * *mirrored);
     }
@@ -125,7 +95,7 @@ LookAlikes lookAlikes(const PoseScorer& scorer, const QueryPose& pose) {
   if (positions.size() < kEnoughPoints) addInlierRays(scorer, rays, pose, positions);
   if (positions.size() < kFewest) return {};
   const std::size_t inliers = countBelow(points, scorer.thresholds().points) + countBelow(rays, scorer.thresholds().rays);
-  const Extents extents(positions);
+  const PrincipalAxes extents(positions);
   const auto posesAt = [&](const std::vector<Eigen::Matrix3d>& turns) {
     std::vector<QueryPose> poses;
     for (const Eigen::Matrix3d& turn : turns) {

@@ -1,4 +1,4 @@
-#include "robust/MirroredPose.hpp"
+#include "robust/LookAlikes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,47 @@
+#include "robust/RobustBox.hpp"
+
+#include <gtest/gtest.h>
+
+#include "Random.hpp"
+
+namespace hybridgv {
+namespace robust {
+namespace {
+
+RobustBox evenBox(test::Random& random, int count) {
+  RobustBox box;
+  for (int i = 0; i < count; ++i) box.add(random.uniform(-500, 500), random.uniform(-300, 300));
+  return box;
+}
+
+TEST(RobustBox, IsTheImageThatIsFilledEvenly) {
+  test::Random random(test::testSeed(), 9860);
+  for (const int count : {100, 2000}) {
+    const RobustBox::Size size = evenBox(random, count).size();
+    EXPECT_NEAR(size.width, 1000, 2000. / std::sqrt(count));
+    EXPECT_NEAR(size.height, 600, 1200. / std::sqrt(count));
+    EXPECT_DOUBLE_EQ(size.area(), size.width * size.height);
+  }
+}
+
+TEST(RobustBox, OnePointFarAwayAmongEightDoesNotDecide) {
+  test::Random random(test::testSeed(), 9861);
+  for (int i = 0; i < 100; ++i)
+    for (const int count : {7, 18, 40, 300}) {
+      RobustBox box = evenBox(random, count);
+      box.add(i % 2 == 0 ? 1e6 : -1e6, 1e6);
+      EXPECT_LT(box.size().width, 1500) << count;
+      EXPECT_LT(box.size().height, 900) << count;
+    }
+}
+
+TEST(RobustBox, OfNoneOrOnePlaceHasNoSize) {
+  EXPECT_EQ(RobustBox().size().area(), 0);
+  RobustBox box;
+  for (int i = 0; i < 10; ++i) box.add(3, 4);
+  EXPECT_EQ(box.size().diagonal(), 0);
+}
+
+}  // namespace
+}  // namespace robust
+}  // namespace hybridgv
