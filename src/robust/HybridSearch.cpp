@@ -21,6 +21,9 @@ constexpr int kFirstBatch = 8, kLeastBatch = 8, kLargestBatch = 128, kLargestPar
 
 constexpr int kSamplesIfHopeless = 24;
 
+// Samples of a batch whose solutions tell how correspondences crowd.
+constexpr int kAskedOfBatch = 64;
+
 int largestBatch(int iterations) { return std::max(kLargestBatch, iterations / kLargestPart); }
 
 // Gain of the log-likelihood for which an optimization is repeated.
@@ -163,6 +166,7 @@ void HybridSearch::tryBatch(int count) {
     std::fill(worker.draws.begin(), worker.draws.end(), 0);
     if (staged_) worker.ownScores = staged_->noScores();
     worker.best.reset();
+    worker.promising.clear();
   }
   workers_.forEach(count, [&](int i, std::size_t worker) {
     if (!isOutOfTime()) tryHypothesis(iterations_ + i + 1, workerStates_[worker]);
@@ -177,6 +181,7 @@ void HybridSearch::tryBatch(int count) {
   }
   significance_.setSamples(iterations_);
   if (best && isWorthConsidering(*best)) consider(best->model);
+  if (best && !bestIsSignificant_ && !theyCrowd_ && significance_.isPromising(best->logChance)) learnHowTheyCrowd(*best);
   if (!bestIsSignificant_) choice_.learnFromFailures();
 }
 
@@ -303,8 +308,37 @@ void HybridSearch::considerSolution(const QueryPose& pose, const Strategy& strat
   candidate.model.pose = pose;
   candidate.model.evaluation = evaluate(pose, strategy, own, worker);
   if (!candidate.model.evaluation.complete) return;
-  candidate.logChance = significance_.logChance(candidate.model.evaluation);
+  const bool anyIsBelieved = bestIsSignificant_;
+  candidate.logChance = anyIsBelieved ? significance_.logChance(candidate.model.evaluation)
+                                      : significance_.logChance(candidate.model.evaluation, chanceShares_);
+  if (!anyIsBelieved && significance_.isPromising(candidate.logChance)) {
+    if (!theyCrowd_ && number <= iterations_ + kAskedOfBatch) worker.promising.push_back(candidate);
+    if (theyCrowd_ && !(worker.best && candidate.logChance > worker.best->logChance)) rateByPairs(candidate, worker);
+  }
   if (!worker.best || candidate.isLessLikelyChance(*worker.best)) worker.best = candidate;
+}
+
+// Which is slower, and only makes it likelier to be chance.
+void HybridSearch::rateByPairs(Candidate& candidate, WorkerState& worker) const {
+  Evaluation& evaluation = candidate.model.evaluation;
+  const Shares shares = largest(chanceShares_, significance_.sharesOfPairs(candidate.model.pose));
+  evaluation = scorer_.evaluateAtClearestLevels(candidate.model.pose, shares, worker.errors);
+  candidate.logChance = std::max(candidate.logChance, significance_.logChance(evaluation, shares));
+}
+
+// A solution looked promising, and chance is not excluded after all: where correspondences crowd, all the best ones may be of that kind, those
+// from which much of the map is seen in one place. From now on they are rated by what other pairs say.
+void HybridSearch::learnHowTheyCrowd(const Candidate& notSignificant) {
+  theyCrowd_ = true;
+  bestCandidate_.reset();
+  significance_.preparePairs();
+  std::vector<Candidate> asked;
+  for (const WorkerState& worker : workerStates_) asked.insert(asked.end(), worker.promising.begin(), worker.promising.end());
+  if (asked.empty()) asked.push_back(notSignificant);
+  std::stable_sort(asked.begin(), asked.end(), [](const Candidate& a, const Candidate& b) { return a.number < b.number; });
+  std::vector<Shares> shares;
+  for (const Candidate& candidate : asked) shares.push_back(significance_.sharesOfPairs(candidate.model.pose));
+  chanceShares_ = largest(chanceShares_, meanOf(shares));
 }
 
 void HybridSearch::consider(const Model& candidate) {

@@ -99,6 +99,7 @@ class HybridSearch {
     std::vector<int> draws;                                   // per strategy
     PerKind<std::vector<double>> errors;                      // scratch
     StagedSampling::OwnScores ownScores;                      // of the batch
+    std::vector<Candidate> promising;                         // of the batch's first samples, before any pose is believed
     std::optional<Candidate> best;
   };
 
@@ -117,6 +118,8 @@ class HybridSearch {
   void considerSolutions(const Hypothesis& hypothesis, const FocalPose* poses, int count, WorkerState& worker) const;
   void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                         WorkerState& worker) const;
+  void rateByPairs(Candidate& candidate, WorkerState& worker) const;
+  void learnHowTheyCrowd(const Candidate& notSignificant);
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;
   double firstScale() const;
   Expectation findable() const;
@@ -168,7 +171,7 @@ class HybridSearch {
   FocalLengthGuess guess_;
   PoseScorer scorer_;
   ChanceModel chance_;
-  Shares chanceShares_;  // at all levels
+  Shares chanceShares_;  // of a wrong pose's inliers, as long as no pose is believed
   QueryFeatures features_;
   std::optional<QueryFeatures> featuresOfAll_;  // if a part is searched in: set by a task of the workers
   Significance significance_;
@@ -182,7 +185,7 @@ class HybridSearch {
   PerKind<std::vector<char>> inliers_;
   double score_ = 0;
   std::optional<Candidate> bestCandidate_;
-  bool bestIsSignificant_ = false, promisingOnly_ = false;
+  bool bestIsSignificant_ = false, promisingOnly_ = false, theyCrowd_ = false;
   Expectation expectation_;           // once a pose is significant
   Expectation ofThreePointsAtFirst_;  // of a pose from three points at least, before
   int iterations_ = 0, mostIterations_ = 0, localOptimizations_ = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "robust/PerKind.hpp"
 #include "robust/kernels/Kernels.hpp"
@@ -19,6 +20,12 @@ LevelCounts countLevels(const double* squaredErrors, std::size_t size, double sq
 
 // T of the level.
 double thresholdAt(double threshold, int level);
+// Of a threshold, as a multiple of T.
+std::size_t levelOf(double scale);
+
+// At each level and of each kind.
+Shares largest(const Shares& a, const Shares& b);
+Shares meanOf(const std::vector<Shares>& shares);
 
 // The level at which the inliers exceed most clearly what chance gives: with x the excess over the expected m, the largest
 // x^2 / (m + 0.3 x), a measure of Chernoff's bound that needs no logarithm. `fitted`: so many are inliers by construction.

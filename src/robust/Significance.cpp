@@ -24,15 +24,6 @@ constexpr double kLogFalseAlarmsOfRays = -25;
 constexpr std::size_t kFewPairs = OtherPairs::kPairs / 4;
 constexpr int kMany = 64;
 
-Shares largest(const Shares& a, const Shares& b) {
-  Shares result;
-  for (std::size_t level = 0; level < kLevels; ++level) {
-    result.rays[level] = std::max(a.rays[level], b.rays[level]);
-    result.points[level] = std::max(a.points[level], b.points[level]);
-  }
-  return result;
-}
-
 int mostFittedPoints(int parameters) { return (parameters + 1) / 2; }
 int fittedRays(int parameters, int fittedPoints) { return std::max(parameters - 2 * fittedPoints, 0); }
 
@@ -101,19 +92,35 @@ Significance::Significance(const PoseScorer& scorer, const ChanceModel& chance, 
 
 void Significance::setSamples(int samples) { logSamples_ = std::log10(samples + 1.); }
 
+Support Significance::supportOf(const Evaluation& evaluation) const {
+  return {evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
+}
+
 double Significance::logChance(const Evaluation& evaluation) const {
-  const Support support{evaluation.points, sampler_.numberPoints(), evaluation.rays, sampler_.numberRays()};
   const double rayShare = chance_.rayShare(evaluation.scale.rays), pointShare = chance_.pointShare(evaluation.scale.points);
-  return ChanceModel::logProbability(support, rayShare, pointShare, parameters_) + kLogChoices;
+  return ChanceModel::logProbability(supportOf(evaluation), rayShare, pointShare, parameters_) + kLogChoices;
+}
+
+double Significance::logChance(const Evaluation& evaluation, const Shares& shares) const {
+  const double rayShare = shares.rays[levelOf(evaluation.scale.rays)],
+               pointShare = shares.points[levelOf(evaluation.scale.points)];
+  return ChanceModel::logProbability(supportOf(evaluation), rayShare, pointShare, parameters_) + kLogChoices;
+}
+
+void Significance::preparePairs() {
+  if (!fewPairs_) fewPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_, kFewPairs);
+}
+
+Shares Significance::sharesOfPairs(const QueryPose& pose) const {
+  return fewPairs_->shares(toPlain(pose), scorer_.bounds().rays, scorer_.bounds().points);
 }
 
 bool Significance::isPromising(double logChance) const { return logAlarms(logChance) < 0; }
 
 bool Significance::isPromising(const QueryPose& pose) {
   const SquaredErrors errors{scorer_.squaredRayErrors(pose), scorer_.squaredPointErrors(pose)};
-  if (!fewPairs_) fewPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_, kFewPairs);
-  const Shares ofPairs = fewPairs_->shares(toPlain(pose), scorer_.bounds().rays, scorer_.bounds().points);
-  return isLessLikelyAtAnyLevels(errors, largest(chance_.levelShares(), ofPairs), -logSamples_ - kLogChoices);
+  preparePairs();
+  return isLessLikelyAtAnyLevels(errors, largest(chance_.levelShares(), sharesOfPairs(pose)), -logSamples_ - kLogChoices);
 }
 
 bool Significance::isSignificant(const QueryPose& pose) { return isLessLikelyThan(kLogFalseAlarms, pose); }
@@ -144,7 +151,7 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   };
   // Of many correspondences, mostly a few pairs tell.
   if (sampler_.numberRays() + sampler_.numberPoints() >= kMany) {
-    if (!fewPairs_) fewPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_, kFewPairs);
+    preparePairs();
     if (areWithPairs(fewPairs_->mostOf(sharesOf(*fewPairs_)))) return true;
   }
   if (!randomPairs_) randomPairs_ = OtherPairs::random(scorer_.arrays(), features_, seed_);

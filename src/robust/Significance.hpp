@@ -43,6 +43,11 @@ class Significance {
 
   // log10 of the probability that a wrong pose looks as good as a pose with these inliers.
   double logChance(const Evaluation& evaluation) const;
+  // The same if wrong poses have these shares of inliers; the evaluation's scales must be those of levels.
+  double logChance(const Evaluation& evaluation, const Shares& shares) const;
+  // Shares of inliers that other pairs have at a pose. Once `preparePairs` has been called.
+  Shares sharesOfPairs(const QueryPose& pose) const;
+  void preparePairs();
   // Whether less than one wrong pose is expected to look as good: the solution deserves a closer look.
   bool isPromising(double logChance) const;
   // The same by the shares of inliers that other pairs of the same data have, too: slower, but true of data that crowd.
@@ -55,6 +60,7 @@ class Significance {
  private:
   // log10 of the expected number of wrong poses that look as good.
   double logAlarms(double logChance) const { return logChance + logSamples_; }
+  Support supportOf(const Evaluation& evaluation) const;
   bool isLessLikelyThan(double logFalseAlarms, const QueryPose& pose);
 
   // The inliers at one choice of levels.

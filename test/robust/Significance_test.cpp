@@ -52,6 +52,14 @@ class SignificanceTest : public testing::Test {
   Significance significance{scorer, chance, sampler, features, workers, 7, 1};
 };
 
+TEST_F(SignificanceTest, ChanceIsLargerWhereWrongPosesHaveMoreInliers) {
+  const Shares even = chance.levelShares();
+  EXPECT_DOUBLE_EQ(significance.logChance(inliers(50, 20), even), significance.logChance(inliers(50, 20)));
+  Shares crowded = even;
+  crowded.points[0] = 2 * even.points[0];
+  EXPECT_GT(significance.logChance(inliers(50, 20), crowded), significance.logChance(inliers(50, 20)) + 1);
+}
+
 TEST_F(SignificanceTest, GrowsWithTheInliersOfEitherKind) {
   double before = 2;  // log10 of the number of choices of levels
   for (const int points : {0, 20, 40, 80}) {
