@@ -158,6 +158,7 @@ void HybridSearch::tryInitialPose() {
   if (options_.knownFocalLengthPx) model.pose.focalLength = *options_.knownFocalLengthPx;
   SquaredErrors errors;
   model.evaluation = scorer_.evaluateAtClearestLevels(model.pose, chanceShares_, errors);
+  model.evaluation.score = scorer_.score(model.evaluation, errors);
   if (model.evaluation.score > 0) consider(model);
 }
 
@@ -308,14 +309,23 @@ void HybridSearch::considerSolution(const QueryPose& pose, const Strategy& strat
   candidate.model.pose = pose;
   candidate.model.evaluation = evaluate(pose, strategy, own, worker);
   if (!candidate.model.evaluation.complete) return;
-  const bool anyIsBelieved = bestIsSignificant_;
-  candidate.logChance = anyIsBelieved ? significance_.logChance(candidate.model.evaluation)
-                                      : significance_.logChance(candidate.model.evaluation, chanceShares_);
-  if (!anyIsBelieved && significance_.isPromising(candidate.logChance)) {
-    if (!theyCrowd_ && number <= iterations_ + kAskedOfBatch) worker.promising.push_back(candidate);
-    if (theyCrowd_ && !(worker.best && candidate.logChance > worker.best->logChance)) rateByPairs(candidate, worker);
-  }
+  if (bestIsSignificant_)
+    candidate.logChance = significance_.logChance(candidate.model.evaluation);
+  else
+    rate(candidate, worker);
   if (!worker.best || candidate.isLessLikelyChance(*worker.best)) worker.best = candidate;
+}
+
+// As long as no pose is believed. What is worse than the best one anyway needs no score.
+void HybridSearch::rate(Candidate& candidate, WorkerState& worker) const {
+  Evaluation& evaluation = candidate.model.evaluation;
+  const auto isWorse = [&] { return worker.best && candidate.logChance > worker.best->logChance; };
+  candidate.logChance = significance_.logChance(evaluation, chanceShares_);
+  if (significance_.isPromising(candidate.logChance)) {
+    if (!theyCrowd_ && candidate.number <= iterations_ + kAskedOfBatch) worker.promising.push_back(candidate);
+    if (theyCrowd_ && !isWorse()) rateByPairs(candidate, worker);
+  }
+  if (!isWorse()) evaluation.score = scorer_.score(evaluation, worker.errors);
 }
 
 // Which is slower, and only makes it likelier to be chance.

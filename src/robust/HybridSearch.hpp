@@ -118,6 +118,7 @@ class HybridSearch {
   void considerSolutions(const Hypothesis& hypothesis, const FocalPose* poses, int count, WorkerState& worker) const;
   void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                         WorkerState& worker) const;
+  void rate(Candidate& candidate, WorkerState& worker) const;
   void rateByPairs(Candidate& candidate, WorkerState& worker) const;
   void learnHowTheyCrowd(const Candidate& notSignificant);
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;

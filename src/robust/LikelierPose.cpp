@@ -43,7 +43,7 @@ void addOptimaFrom(const std::vector<QueryPose>& starts, double leastTurn, const
 const FinalPose& likeliestOf(const std::vector<FinalPose>& optima, const LocalOptimizer& optimizer) {
   const FinalPose* best = &optima[0];
   for (const FinalPose& optimum : optima)
-    if (optimum.isRegular && optimizer.likelihoodRatio(optimum, *best).log > 0) best = &optimum;
+    if (&optimum != best && optimum.isRegular && optimizer.likelihoodRatio(optimum, *best).log > 0) best = &optimum;
   return *best;
 }
 

@@ -164,9 +164,12 @@ Evaluation PoseScorer::evaluateAtClearestLevels(const QueryPose& pose, const Sha
   result.rays = rays[static_cast<std::size_t>(ray)];
   result.points = points[static_cast<std::size_t>(point)];
   result.scale = {thresholdAt(1, ray), thresholdAt(1, point)};
-  result.score = scoreOf(errors.rays, thresholdAt(bounds_.rays, ray), result.rays) +
-                 scoreOf(errors.points, thresholdAt(bounds_.points, point), result.points);
   return result;
+}
+
+double PoseScorer::score(const Evaluation& evaluation, const PerKind<std::vector<double>>& errors) const {
+  return scoreOf(errors.rays, evaluation.scale.rays * bounds_.rays, evaluation.rays) +
+         scoreOf(errors.points, evaluation.scale.points * bounds_.points, evaluation.points);
 }
 
 std::vector<double> PoseScorer::squaredRayErrors(const QueryPose& pose) const {

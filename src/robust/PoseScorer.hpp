@@ -71,7 +71,10 @@ class PoseScorer {
   bool pointsLeaveHope(const QueryPose& pose, double scale, const Expectation& expectation, const OwnCorrespondences& own) const;
   // Over all correspondences, with the thresholds at which the inliers exceed most clearly what chance gives: bounds / 2^k of each
   // kind. `chance`: shares of a wrong pose's inliers; `errors`: room for those of both kinds.
+  // The score is left out, of which few ask.
   Evaluation evaluateAtClearestLevels(const QueryPose& pose, const Shares& chance, PerKind<std::vector<double>>& errors) const;
+  // That of such an evaluation, with the errors that it left.
+  double score(const Evaluation& evaluation, const PerKind<std::vector<double>>& errors) const;
   // Masks of the correspondences whose error is below their kind's threshold times `factor`, but at most its bound.
   PerKind<std::vector<char>> inliers(const QueryPose& pose, double factor = 1) const;
   // The same for any thresholds, larger than the bounds, too.
