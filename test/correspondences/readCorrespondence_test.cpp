@@ -235,11 +235,15 @@ class IndexedAdapter : public NoncentralHybridAdapter {
 TEST(ReadCorrespondence, WrongCameraIndicesDoNotMatter) {
   const test::HybridScene scene = makeScene(905);
   const NoncentralHybridAdapter data = scene.adapter();
-  const FocalPoses expected = hybrid_pose::h51f(data, {{0, 1, 2, 3, 4}, {0}});
+  // A sample with outliers may have no solution.
+  int first = 0;
+  const auto sample = [&] { return std::vector<std::vector<int>>{{first, first + 1, first + 2, first + 3, first + 4}, {first}}; };
+  FocalPoses expected = hybrid_pose::h51f(data, sample());
+  for (; expected.empty() && first < 30; expected = hybrid_pose::h51f(data, sample())) ++first;
   ASSERT_FALSE(expected.empty());
   for (const bool oneForAll : {true, false}) {
     const IndexedAdapter adapter(data, oneForAll);
-    const FocalPoses poses = hybrid_pose::h51f(adapter, {{0, 1, 2, 3, 4}, {0}});
+    const FocalPoses poses = hybrid_pose::h51f(adapter, sample());
     ASSERT_EQ(poses.size(), expected.size());
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].position, expected[i].position);
     EXPECT_NO_THROW(relative_pose::sixpt_onefocal(adapter, {0, 5, 10, 15, 20, 25}));

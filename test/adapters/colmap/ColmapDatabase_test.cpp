@@ -92,8 +92,9 @@ TEST(ColmapDatabase, GivesTheQueryThatWasStored) {
     EXPECT_EQ(query.knowledge, CameraKnowledge::Unknown);
     ASSERT_EQ(query.keypoints.size(), stored.scene.query.keypoints.size());
     for (std::size_t i = 0; i < query.keypoints.size(); ++i) {
-      EXPECT_EQ(query.keypoints[i].x, stored.scene.query.keypoints[i].x);
-      EXPECT_EQ(query.keypoints[i].y, stored.scene.query.keypoints[i].y);
+      // Stored as single precision.
+      EXPECT_EQ(query.keypoints[i].x, static_cast<float>(stored.scene.query.keypoints[i].x));
+      EXPECT_EQ(query.keypoints[i].y, static_cast<float>(stored.scene.query.keypoints[i].y));
     }
     expectSameMatches(query, stored.scene.query);
     EXPECT_TRUE(query.notes.empty());
