@@ -16,16 +16,16 @@ constexpr std::size_t kRayColumns = 13, kPointColumns = 5;
 
 // Never the largest of several values; 0 if there are none. Changes their order.
 double quantile(std::vector<double>& values, double share) {
-  const auto place = [&] { return static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)); };
-  return values.empty() ? 0 : math::nthSmallest(values, place());
+  if (values.empty()) return 0;
+  return math::nthSmallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
 // The 95 % quantile, unless that of three quarters is far below it: then it is one of the few far away that must not decide, as where two of
 // sixteen are.
 double nearlyAllBelow(std::vector<double> values) {
   constexpr double kMostOfQuartile = 4;
-  const double most = quantile(values, 0.95);
-  return std::min(most, kMostOfQuartile * quantile(values, 0.75));
+  const double most = quantile(values, 0.95), quartile = quantile(values, 0.75);
+  return quartile > 0 ? std::min(most, kMostOfQuartile * quartile) : most;
 }
 
 double largerCoordinate(double u, double v) { return std::max(std::abs(u), std::abs(v)); }
@@ -197,16 +197,17 @@ std::vector<double> CorrespondenceArrays::sizesOfImagePoints(const Size& size) c
 
 double CorrespondenceArrays::imageSize() const { return 2 * nearlyAllBelow(sizesOfImagePoints(largerCoordinate)); }
 
-// Of an image that is filled evenly, half of the points have both coordinates below the root of 1/2 of the largest.
+// Of an image that is filled evenly, half of the points have both coordinates below the root of 1/2 of the largest. Of one that is filled along its
+// border they have not.
 double CorrespondenceArrays::leastImageSize() const {
   std::vector<double> coordinates = sizesOfImagePoints(largerCoordinate);
-  return 2 * std::sqrt(2.) * quantile(coordinates, 0.5);
+  return std::min(imageSize(), 2 * std::sqrt(2.) * quantile(coordinates, 0.5));
 }
 
 double CorrespondenceArrays::imageRadius() const {
-  constexpr double kMostOfThose = 2;
+  constexpr double kFarther = 2;
   const std::vector<double> radii = sizesOfImagePoints([](double u, double v) { return std::hypot(u, v); });
-  return radii.empty() ? 0 : std::min(kMostOfThose * nearlyAllBelow(radii), *std::max_element(radii.begin(), radii.end()));
+  return radii.empty() ? 0 : std::min(kFarther * nearlyAllBelow(radii), *std::max_element(radii.begin(), radii.end()));
 }
 
 void CorrespondenceArrays::fixUnknownFocalLengths(double least) {

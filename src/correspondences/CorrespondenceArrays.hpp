@@ -48,7 +48,7 @@ class CorrespondenceArrays {
   // About the width of the query's image: twice the largest coordinate, if the image points reach the image's border evenly. A few
   // points far away do not decide. 0 if there are none.
   double imageSize() const;
-  // The same by the median of these coordinates, which wrong matches do not move much; of image points that crowd in the middle it is too small.
+  // At most that: by the median of these coordinates, which wrong matches do not move much. Of image points that crowd in the middle it is too small.
   double leastImageSize() const;
 
   // How far image points are from the principal point: the largest distance, but at most twice what nearly all are below,

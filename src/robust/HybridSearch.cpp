@@ -182,7 +182,7 @@ void HybridSearch::tryBatch(int count) {
   }
   significance_.setSamples(iterations_);
   if (best && isWorthConsidering(*best)) consider(best->model);
-  if (best && !bestIsSignificant_ && !theyCrowd_ && significance_.isPromising(best->logChance)) learnHowTheyCrowd(*best);
+  if (best && !bestIsSignificant_ && !asksPairs_ && significance_.isPromising(best->logChance)) learnFromPairs(*best);
   if (!bestIsSignificant_) choice_.learnFromFailures();
 }
 
@@ -198,7 +198,8 @@ bool HybridSearch::Candidate::isLessLikelyChance(const Candidate& other) const {
 // Or, as long as no pose is believed, if it is the best minimal solution so far.
 bool HybridSearch::isWorthConsidering(const Candidate& candidate) {
   const bool isPromising = significance_.isPromising(candidate.logChance);
-  if (promisingOnly_ && !(isPromising && significance_.isPromising(candidate.model.pose))) return false;
+  const bool pairsMustAgree = promisingOnly_ || (asksPairs_ && bestIsSignificant_);
+  if (pairsMustAgree && !(isPromising && significance_.isPromising(candidate.model.pose))) return false;
   if (bestIsSignificant_ || promisingOnly_) return isPromising && !leadsToBest(candidate.model.pose);
   const bool isBest = !bestCandidate_ || candidate.isLessLikelyChance(*bestCandidate_);
   if (isBest) bestCandidate_ = candidate;
@@ -321,10 +322,9 @@ void HybridSearch::rate(Candidate& candidate, WorkerState& worker) const {
   Evaluation& evaluation = candidate.model.evaluation;
   const auto isWorse = [&] { return worker.best && candidate.logChance > worker.best->logChance; };
   candidate.logChance = significance_.logChance(evaluation, chanceShares_);
-  if (significance_.isPromising(candidate.logChance)) {
-    if (!theyCrowd_ && candidate.number <= iterations_ + kAskedOfBatch) worker.promising.push_back(candidate);
-    if (theyCrowd_ && !isWorse()) rateByPairs(candidate, worker);
-  }
+  if (!asksPairs_ && candidate.number <= iterations_ + kAskedOfBatch && significance_.isPromising(candidate.logChance))
+    worker.promising.push_back({candidate.number, candidate.model.pose});
+  if (asksPairs_ && !isWorse()) rateByPairs(candidate, worker);
   if (!isWorse()) evaluation.score = scorer_.score(evaluation, worker.errors);
 }
 
@@ -336,18 +336,19 @@ void HybridSearch::rateByPairs(Candidate& candidate, WorkerState& worker) const 
   candidate.logChance = std::max(candidate.logChance, significance_.logChance(evaluation, shares));
 }
 
-// A solution looked promising, and chance is not excluded after all: where correspondences crowd, all the best ones may be of that kind, those
-// from which much of the map is seen in one place. From now on they are rated by what other pairs say.
-void HybridSearch::learnHowTheyCrowd(const Candidate& notSignificant) {
-  theyCrowd_ = true;
+// A solution looked promising, and is not believed (or, in the search for a second pose, not promising by other pairs either). Where correspondences
+// crowd, all the best ones may be of that kind, those from which much of the map is seen in one place. From now on they are rated by what other
+// pairs say.
+void HybridSearch::learnFromPairs(const Candidate& notBelieved) {
+  asksPairs_ = true;
   bestCandidate_.reset();
   significance_.preparePairs();
-  std::vector<Candidate> asked;
+  std::vector<NumberedPose> asked;
   for (const WorkerState& worker : workerStates_) asked.insert(asked.end(), worker.promising.begin(), worker.promising.end());
-  if (asked.empty()) asked.push_back(notSignificant);
-  std::stable_sort(asked.begin(), asked.end(), [](const Candidate& a, const Candidate& b) { return a.number < b.number; });
+  if (asked.empty()) asked.push_back({notBelieved.number, notBelieved.model.pose});
+  std::stable_sort(asked.begin(), asked.end(), [](const NumberedPose& a, const NumberedPose& b) { return a.number < b.number; });
   std::vector<Shares> shares;
-  for (const Candidate& candidate : asked) shares.push_back(significance_.sharesOfPairs(candidate.model.pose));
+  for (const NumberedPose& solution : asked) shares.push_back(significance_.sharesOfPairs(solution.pose));
   chanceShares_ = largest(chanceShares_, meanOf(shares));
 }
 

@@ -85,12 +85,17 @@ class HybridSearch {
  private:
   // A solution that competes with others by how unlikely it is to be chance.
   struct Candidate {
-    // Of equally good ones the earlier is better, so that the best of many does not depend on the order in which they are compared.
+    // Of equally good ones the earlier is better, so that the best of many does not depend on the order in which they are compared. Only what is
+    // less good than another one anyway may lack its score.
     bool isLessLikelyChance(const Candidate& other) const;
 
     Model model;
     double logChance = 0;
     int number = 0;  // of the hypothesis
+  };
+  struct NumberedPose {
+    int number = 0;  // of the hypothesis
+    QueryPose pose;
   };
   // What one worker found in a batch. Nothing is kept of the other hypotheses: their number has no bound.
   struct WorkerState {
@@ -99,7 +104,7 @@ class HybridSearch {
     std::vector<int> draws;                                   // per strategy
     PerKind<std::vector<double>> errors;                      // scratch
     StagedSampling::OwnScores ownScores;                      // of the batch
-    std::vector<Candidate> promising;                         // of the batch's first samples, before any pose is believed
+    std::vector<NumberedPose> promising;                      // of the batch's first samples, before any pose is believed
     std::optional<Candidate> best;
   };
 
@@ -120,7 +125,7 @@ class HybridSearch {
                         WorkerState& worker) const;
   void rate(Candidate& candidate, WorkerState& worker) const;
   void rateByPairs(Candidate& candidate, WorkerState& worker) const;
-  void learnHowTheyCrowd(const Candidate& notSignificant);
+  void learnFromPairs(const Candidate& notBelieved);
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;
   double firstScale() const;
   Expectation findable() const;
@@ -186,7 +191,7 @@ class HybridSearch {
   PerKind<std::vector<char>> inliers_;
   double score_ = 0;
   std::optional<Candidate> bestCandidate_;
-  bool bestIsSignificant_ = false, promisingOnly_ = false, theyCrowd_ = false;
+  bool bestIsSignificant_ = false, promisingOnly_ = false, asksPairs_ = false;
   Expectation expectation_;           // once a pose is significant
   Expectation ofThreePointsAtFirst_;  // of a pose from three points at least, before
   int iterations_ = 0, mostIterations_ = 0, localOptimizations_ = 0;

@@ -14,7 +14,7 @@ LevelCounts countLevels(const double* squaredErrors, std::size_t size, double sq
 
 double thresholdAt(double threshold, int level) { return std::ldexp(threshold, -level); }
 
-std::size_t levelOf(double scale) { return static_cast<std::size_t>(-std::ilogb(scale)); }
+std::size_t levelOf(double scale) { return static_cast<std::size_t>(std::clamp(-std::ilogb(scale), 0, kLevels - 1)); }
 
 Shares largest(const Shares& a, const Shares& b) {
   Shares result;

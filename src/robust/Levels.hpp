@@ -20,7 +20,7 @@ LevelCounts countLevels(const double* squaredErrors, std::size_t size, double sq
 
 // T of the level.
 double thresholdAt(double threshold, int level);
-// Of a threshold, as a multiple of T.
+// The level of a threshold, of which this is the multiple of T: one of thresholdAt(1, level).
 std::size_t levelOf(double scale);
 
 // At each level and of each kind.

@@ -51,8 +51,8 @@ std::optional<Eigen::Matrix3d> mirroring(const Eigen::Vector3d& normal, const Ei
 // as large.
 class Turns {
  public:
-  Turns(const PrincipalAxes& extents, const QueryPose& pose, double largestError)
-      : axes_(extents.directions), deviations_(extents.deviations), offset_(extents.centre - pose.position) {
+  Turns(const PrincipalAxes& axes, const QueryPose& pose, double largestError)
+      : axes_(axes.directions), deviations_(axes.deviations), offset_(axes.centre - pose.position) {
     isValid_ = axes_.allFinite() && deviations_[2] > 0;
     largestDeviation_ = largestError / 2 * offset_.norm() / pose.focalLength;
   }
@@ -95,20 +95,20 @@ LookAlikes lookAlikes(const PoseScorer& scorer, const QueryPose& pose) {
   if (positions.size() < kEnoughPoints) addInlierRays(scorer, rays, pose, positions);
   if (positions.size() < kFewest) return {};
   const std::size_t inliers = countBelow(points, scorer.thresholds().points) + countBelow(rays, scorer.thresholds().rays);
-  const PrincipalAxes extents(positions);
+  const PrincipalAxes axes(positions);
   const auto posesAt = [&](const std::vector<Eigen::Matrix3d>& turns) {
     std::vector<QueryPose> poses;
     for (const Eigen::Matrix3d& turn : turns) {
       QueryPose other = pose;
       other.rotation = turn * pose.rotation;
-      other.position = extents.centre + turn * (pose.position - extents.centre);
+      other.position = axes.centre + turn * (pose.position - axes.centre);
       const std::size_t near = countBelow(scorer.squaredPointErrors(other), scorer.bounds().points) +
                                countBelow(scorer.squaredRayErrors(other), scorer.bounds().rays);
       if (2 * near > inliers) poses.push_back(other);
     }
     return poses;
   };
-  const Turns turns(extents, pose, std::max(scorer.bounds().points, scorer.bounds().rays));
+  const Turns turns(axes, pose, std::max(scorer.bounds().points, scorer.bounds().rays));
   return {posesAt(turns.mirrored()), posesAt(turns.turned())};
 }
 

@@ -11,8 +11,8 @@
 namespace hybridgv {
 namespace robust {
 
-// A few points far away must not decide: it is the box that leaves out a twentieth at each side, but one point at least, enlarged to the size that it would
-// have for evenly spread points.
+// A few points far away must not decide: it is the box that leaves out a twentieth at each side (from eight on, one at least),
+// enlarged to about the size that it would have for evenly spread points.
 class RobustBox {
  public:
   void add(double u, double v) {
@@ -27,14 +27,19 @@ class RobustBox {
   Size size() const { return {extent(u_), extent(v_)}; }
 
  private:
+  // Where that is several times what three quarters in the middle suggest, it is still one of the few far away.
   static double extent(std::vector<double> values) {
+    constexpr double kLeftOut = 0.05, kLeftOutOfInner = 0.125, kMostOfInner = 4;
+    const std::size_t count = values.size();
+    const auto placesOf = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(count)); };
+    const double outer = extentWithout(std::max(placesOf(kLeftOut), std::size_t{count >= 8}), values);
+    const double inner = extentWithout(std::min(placesOf(kLeftOutOfInner) + 1, count / 3), values);
+    return inner > 0 ? std::min(outer, kMostOfInner * inner) : outer;
+  }
+  static double extentWithout(std::size_t atEachSide, std::vector<double>& values) {
     if (values.empty()) return 0;
-    constexpr double kLeftOut = 0.05;
-    constexpr std::size_t kEnoughForOne = 8;
-    const std::size_t least = values.size() < kEnoughForOne ? 0 : 1;
-    const std::size_t skip = std::max(least, static_cast<std::size_t>(kLeftOut * static_cast<double>(values.size())));
-    const double low = math::nthSmallest(values, skip), high = math::nthSmallest(values, values.size() - 1 - skip);
-    return (high - low) / (1 - 2 * static_cast<double>(skip) / static_cast<double>(values.size()));
+    const double low = math::nthSmallest(values, atEachSide), high = math::nthSmallest(values, values.size() - 1 - atEachSide);
+    return (high - low) / (1 - 2 * static_cast<double>(atEachSide) / static_cast<double>(values.size()));
   }
   std::vector<double> u_, v_;
 };

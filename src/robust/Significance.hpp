@@ -45,7 +45,7 @@ class Significance {
   double logChance(const Evaluation& evaluation) const;
   // The same if wrong poses have these shares of inliers; the evaluation's scales must be those of levels.
   double logChance(const Evaluation& evaluation, const Shares& shares) const;
-  // Shares of inliers that other pairs have at a pose. Once `preparePairs` has been called.
+  // Shares of inliers that other pairs have at a pose, after preparePairs().
   Shares sharesOfPairs(const QueryPose& pose) const;
   void preparePairs();
   // Whether less than one wrong pose is expected to look as good: the solution deserves a closer look.

@@ -1,6 +1,8 @@
 // What CorrespondenceArrays take for the size of the query's image.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "HybridScene.hpp"
 #include "correspondences/CorrespondenceArrays.hpp"
 
@@ -39,6 +41,26 @@ TEST(ImageSize, AnEighthOfTheImagePointsFarAwayDoesNotDecide) {
       EXPECT_LT(arraysOf(points).leastImageSize(), 1420) << strays;
       EXPECT_LT(arraysOf(points).imageRadius(), 5700) << strays;
     }
+}
+
+TEST(ImageSize, TheLeastIsNoLargerWhereImagePointsAreAtTheBorder) {
+  test::Random random(test::testSeed(), 9872);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 60; ++i) points.push_back({random.uniform(380, 500), random.uniform(-500, 500), 1});
+  EXPECT_LE(arraysOf(points).leastImageSize(), arraysOf(points).imageSize());
+  EXPECT_NEAR(arraysOf(points).imageSize(), 1000, 30);
+}
+
+TEST(ImageSize, CountsBothKinds) {
+  test::Random random(test::testSeed(), 9873);
+  test::SceneOptions options;
+  options.rays = options.points = 50;
+  test::HybridScene scene = test::makeHybridScene(random, options);
+  for (Eigen::Vector3d& point : scene.image2d2d) point = {random.uniform(400, 500), 0, 1};
+  for (Eigen::Vector3d& point : scene.image2d3d) point = {random.uniform(0, 100), 0, 1};
+  const CorrespondenceArrays arrays(scene.adapter(), allIndices(50), allIndices(50));
+  EXPECT_NEAR(arrays.imageSize(), 980, 30);
+  EXPECT_NEAR(arrays.leastImageSize(), 2 * std::sqrt(2.) * 100, 60);
 }
 
 TEST(ImageSize, OfImagePointsAtTheCentreOrNoneIsNothing) {

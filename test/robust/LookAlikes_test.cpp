@@ -63,7 +63,7 @@ Data thinScene(std::uint64_t stream, double length, double width) {
 }
 
 // The perspective errors of an object of relative size s fall with s^2, those of its image with s.
-TEST(MirroredPose, AFlatObjectLooksTheSameTheSmallerItIs) {
+TEST(LookAlikes, AFlatObjectLooksTheSameTheSmallerItIs) {
   for (const auto& counts : {std::pair<int, int>{20, 20}, {20, 0}, {0, 20}})
     for (std::uint64_t i = 0; i < 20; ++i) {
       const Data data(9700 + i, flat(0.01, counts.first, counts.second));
@@ -78,7 +78,7 @@ TEST(MirroredPose, AFlatObjectLooksTheSameTheSmallerItIs) {
     }
 }
 
-TEST(MirroredPose, MirroredTwiceIsTheSame) {
+TEST(LookAlikes, MirroredTwiceIsTheSame) {
   int found = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
     const Data data(9730 + i, flat(0.5, 0, 30));
@@ -94,7 +94,7 @@ TEST(MirroredPose, MirroredTwiceIsTheSame) {
   EXPECT_GT(found, 10);
 }
 
-TEST(MirroredPose, ASceneWithReliefHasNone) {
+TEST(LookAlikes, ASceneWithReliefHasNone) {
   for (std::uint64_t i = 0; i < 20; ++i) {
     test::SceneOptions options;
     options.rays = options.points = 30;
@@ -104,7 +104,7 @@ TEST(MirroredPose, ASceneWithReliefHasNone) {
   }
 }
 
-TEST(MirroredPose, FewerThanThreeInliersHaveNone) {
+TEST(LookAlikes, FewerThanThreeInliersHaveNone) {
   for (const int points : {0, 1, 2}) {
     const Data data(9790, flat(0.5, 0, points));
     const LookAlikes others = lookAlikes(data.scorer(), data.truth);
@@ -137,7 +137,7 @@ TEST(LookAlikes, WhatIsNotThinIsNotTurned) {
 }
 
 // Where it is seen at a right angle, the mirrored pose is the same.
-TEST(MirroredPose, APlaneParallelToTheImageHasNone) {
+TEST(LookAlikes, APlaneParallelToTheImageHasNone) {
   test::Random random(test::testSeed(), 9795);
   test::HybridScene scene = test::makeHybridScene(random, flat(1, 0, 30));
   for (std::size_t i = 0; i < scene.points.size(); ++i) {

@@ -35,6 +35,26 @@ TEST(RobustBox, OnePointFarAwayAmongEightDoesNotDecide) {
     }
 }
 
+TEST(RobustBox, AnEighthFarAwayAtTheSameSideDoesNotDecide) {
+  test::Random random(test::testSeed(), 9862);
+  for (int i = 0; i < 100; ++i)
+    for (const int strays : {1, 2, 10}) {
+      RobustBox box = evenBox(random, 7 * strays + 3);
+      for (int k = 0; k < strays; ++k) box.add(1e6, 0);
+      EXPECT_LT(box.size().width, 6000) << strays;
+      EXPECT_LT(box.size().height, 1000) << strays;
+    }
+}
+
+TEST(RobustBox, OfAFewPointsIsNoLargerThanTheyAre) {
+  for (const int count : {1, 2, 3, 4, 5, 6, 7}) {
+    RobustBox box;
+    for (int i = 0; i < count; ++i) box.add(10 * i, 0);
+    EXPECT_LE(box.size().width, 10 * (count - 1)) << count;
+    EXPECT_GE(box.size().width, 10 * (count - 1) / 2.) << count;
+  }
+}
+
 TEST(RobustBox, OfNoneOrOnePlaceHasNoSize) {
   EXPECT_EQ(RobustBox().size().area(), 0);
   RobustBox box;

@@ -68,21 +68,46 @@ TEST(Crowding, DoesNotHideTheRightPose) {
   EXPECT_EQ(right, successes);
 }
 
+void expectEqual(const HybridRansacResult& a, const HybridRansacResult& b) {
+  EXPECT_EQ(a.success, b.success);
+  EXPECT_EQ(a.pose.rotation, b.pose.rotation);
+  EXPECT_EQ(a.pose.position, b.pose.position);
+  EXPECT_EQ(a.pose.focalLength, b.pose.focalLength);
+  EXPECT_EQ(a.inliers2d2d, b.inliers2d2d);
+  EXPECT_EQ(a.inliers2d3d, b.inliers2d3d);
+  EXPECT_EQ(a.iterations, b.iterations);
+  EXPECT_EQ(a.localOptimizations, b.localOptimizations);
+}
+
 TEST(Crowding, ResultsAreTheSameForAnyNumberOfThreads) {
-  for (std::uint64_t i = 0; i < 5; ++i) {
-    const HybridScene scene = crowdedScene(i, 100, 0.8);
+  for (std::uint64_t i = 0; i < 5; ++i)
+    for (const bool isKnown : {false, true}) {
+      const HybridScene scene = crowdedScene(i, 100, 0.85);
+      HybridRansacOptions options;
+      options.seed = i;
+      if (isKnown) options.knownFocalLengthPx = scene.truth.focalLength;
+      const HybridRansacResult one = hybridRansac(scene.adapter(), options);
+      for (const int threads : {2, 5}) {
+        options.threads = threads;
+        expectEqual(one, hybridRansac(scene.adapter(), options));
+      }
+    }
+}
+
+TEST(Crowding, RightPosesAreFoundByInlierCountsAndFromAnInitialPoseToo) {
+  int byCount = 0, fromInitialPose = 0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const HybridScene scene = crowdedScene(i, 200, 0.8);
     HybridRansacOptions options;
     options.seed = i;
-    const HybridRansacResult one = hybridRansac(scene.adapter(), options);
-    for (const int threads : {2, 5}) {
-      options.threads = threads;
-      const HybridRansacResult several = hybridRansac(scene.adapter(), options);
-      EXPECT_EQ(one.pose.position, several.pose.position);
-      EXPECT_EQ(one.pose.focalLength, several.pose.focalLength);
-      EXPECT_EQ(one.iterations, several.iterations);
-      EXPECT_EQ(one.localOptimizations, several.localOptimizations);
-    }
+    options.scoring = sac::Scoring::InlierCount;
+    byCount += hybridRansac(scene.adapter(), options).success;
+    options.scoring = sac::Scoring::Msac;
+    options.initialPose = scene.truth;
+    fromInitialPose += hybridRansac(scene.adapter(), options).success;
   }
+  EXPECT_GE(byCount, 19);
+  EXPECT_EQ(fromInitialPose, 20);
 }
 
 // Nothing is right: image points of each kind in any order.

@@ -37,16 +37,17 @@ TEST(FocalLengthBounds, AreKept) {
   EXPECT_TRUE(hybridRansac(scene.adapter(), options).success);
 }
 
-// 60 points all over an image of 160 degrees.
-HybridScene veryWideScene(std::uint64_t stream) {
+// 60 points in an image of 1140 px, where u is at least `leastU`.
+HybridScene wideScene(std::uint64_t stream, double focalLength, double leastU) {
+  constexpr double kMost = 570;
   Random random(testSeed() + stream, 190);
   SceneOptions options;
   options.rays = 0;
   HybridScene scene = makeHybridScene(random, options);
-  scene.truth.focalLength = 100;
+  scene.truth.focalLength = focalLength;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    const double depth = random.uniform(1, 3), reach = 5.7;
-    const Eigen::Vector3d inQuery(random.uniform(-reach, reach), random.uniform(-reach, reach), 1);
+    const double depth = random.uniform(1, 3), u = random.uniform(leastU, kMost), v = random.uniform(-kMost, kMost);
+    const Eigen::Vector3d inQuery(u / focalLength, v / focalLength, 1);
     scene.points[i] = scene.truth.position + depth * (scene.truth.rotation * inQuery);
     scene.image2d3d[i] = noisyImagePoint(random, project(scene.truth, scene.points[i]), 0.5);
   }
@@ -55,7 +56,7 @@ HybridScene veryWideScene(std::uint64_t stream) {
 
 TEST(FocalLengthBounds, AFieldOfViewThatNoCameraHasIsFoundOnlyIfItIsAllowed) {
   for (std::uint64_t i = 0; i < 10; ++i) {
-    const HybridScene scene = veryWideScene(i);
+    const HybridScene scene = wideScene(i, 100, -570);  // 160 degrees
     HybridRansacOptions options;
     options.seed = i;
     EXPECT_FALSE(hybridRansac(scene.adapter(), options).success) << "scene " << i;
@@ -72,6 +73,18 @@ TEST(FocalLengthBounds, AFieldOfViewThatNoCameraHasIsFoundOnlyIfItIsAllowed) {
   }
 }
 
+// Matches in a strip along the image's border say no more of its size than others do.
+TEST(FocalLengthBounds, AllowWideFieldsOfViewWhereverImagePointsAre) {
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const HybridScene scene = wideScene(i, 260, 430);  // 131 degrees
+    HybridRansacOptions options;
+    options.seed = i;
+    const HybridRansacResult result = hybridRansac(scene.adapter(), options);
+    EXPECT_TRUE(result.success) << "scene " << i;
+    EXPECT_NEAR(result.pose.focalLength, 260, 10) << "scene " << i;
+  }
+}
+
 // A few image points far outside say nothing of the image's size.
 TEST(FocalLengthBounds, StrayImagePointsAmongFewDecideNothing) {
   for (const int ofEachKind : {8, 12, 20})
@@ -81,7 +94,7 @@ TEST(FocalLengthBounds, StrayImagePointsAmongFewDecideNothing) {
         Random random(testSeed() + i, 191);
         HybridScene scene = makeHybridScene(random, withMatches(ofEachKind, 0));
         scene.image2d3d[0] = {20000, 0, 1};
-        if (strays > 1) scene.image2d2d[0] = {0, -20000, 1};
+        if (strays > 1) scene.image2d2d[0] = i % 2 == 0 ? Eigen::Vector3d(0, -20000, 1) : Eigen::Vector3d(20000, 0, 1);
         HybridRansacOptions options;
         options.seed = i;
         const HybridRansacResult result = hybridRansac(scene.adapter(), options);

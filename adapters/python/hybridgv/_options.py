@@ -24,7 +24,7 @@ class Options:
         min_iterations, max_iterations: samples drawn
         time_budget: no new sample after this time [s]
         min_focal_length, max_focal_length: bounds of the focal length [px]; a minimum of 0 is automatic: a field of
-            view of 136 degrees
+            view of 136 degrees, or none if the focal length is known or a prior, or if the maximum is not much larger
         max_focal_length_deviation: a success needs a standard deviation of the focal length below this share of it
         principal_point_deviation: how far the principal point may be off, as the standard deviation of each coordinate [px]. It
             is allowed for in the covariance and the standard deviations, the pose does not depend on it. Where the middle of

@@ -90,9 +90,9 @@ struct HYBRIDGV_EXPORT HybridRansacResult {
 /// So data of one kind that are all outliers cost no more than the samples wasted on them, and an absent kind costs nothing.
 ///
 /// The Sampson error uses the rig camera's own focal length where the adapter knows it (getRigFocalLength), else about the width of
-/// the query's image: twice the 95 % quantile of the larger coordinates of its points. (With the query's focal length, the error of
-/// any rays would vanish as that goes to 0, and fall as it grows. One that is known, if only roughly, is the least.) Image points,
-/// viewing rays and points must be finite.
+/// the query's image: twice the 95 % quantile of the larger coordinates of its points, at most eight times the 75 % one. (With the
+/// query's focal length, the error of any rays would vanish as that goes to 0, and fall as it grows. One that is known, if only
+/// roughly, is the least.) Image points, viewing rays and points must be finite.
 ///
 /// The inliers are too many to be chance if the expected number of wrong poses with as many is below 1e-6. That is judged by the
 /// data themselves: by inliers that are *different* (a rig point, a viewing ray or a feature of the query counts once, however
