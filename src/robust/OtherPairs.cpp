@@ -60,7 +60,7 @@ void OtherPairs::setPartner(std::size_t i, std::size_t round, double u, double v
 }
 
 OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed,
-                              std::size_t pairs) {
+                              std::size_t pairs, PartnersOf of) {
   OtherPairs result(arrays);
   const std::vector<ImagePoint> all = imagePoints(arrays);
   if (all.size() < 2) return result;
@@ -68,10 +68,12 @@ OtherPairs OtherPairs::random(const CorrespondenceArrays& arrays, const QueryFea
   // Because correspondences are in random order, the one that comes so many places after an asker is as good as any.
   const auto pairUp = [&](std::size_t first, std::size_t count) {
     const std::size_t askers = std::min(count, kAskers);
+    const bool ofOwnKind = of == PartnersOf::OwnKind && count > 1;
+    const std::size_t begin = ofOwnKind ? first : 0, size = ofOwnKind ? count : all.size();
     Partners partners = noPartners(askers, std::min(pairs / std::max<std::size_t>(askers, 1), kMostPartners));
     for (std::size_t round = 0; round < partners.rounds; ++round) {
-      std::size_t other = (first + 1 + random.below(all.size() - 1)) % all.size();
-      for (std::size_t i = 0; i < askers; ++i, other = other + 1 < all.size() ? other + 1 : 0) {
+      std::size_t other = begin + (first - begin + 1 + random.below(size - 1)) % size;
+      for (std::size_t i = 0; i < askers; ++i, other = other + 1 < begin + size ? other + 1 : begin) {
         const bool isOwn = features.numbers()[other] == features.numbers()[first + i];
         if (isOwn) continue;
         setPartner(i, round, all[other].u, all[other].v, partners);

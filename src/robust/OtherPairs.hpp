@@ -21,9 +21,11 @@ class OtherPairs {
  public:
   // So many of each kind: a share of one in a thousand is still seen.
   static constexpr std::size_t kPairs = 2048;
-  // Random partners: image points of either kind. The own feature's may be drawn, but is no partner. `pairs` of each kind, or nearly.
+  // Of which kind a correspondence's partners are. The own one tells where only that kind crowds, and less where it has but a few.
+  enum class PartnersOf { EitherKind, OwnKind };
+  // Random partners. The own feature's image point may be drawn, but is no partner. `pairs` of each kind, or nearly.
   static OtherPairs random(const correspondences::CorrespondenceArrays& arrays, const QueryFeatures& features, std::uint64_t seed,
-                           std::size_t pairs = kPairs);
+                           std::size_t pairs = kPairs, PartnersOf of = PartnersOf::EitherKind);
   // Partners are the image points of neighbours: of the nearest points in space, of the nearest rays of the same rig camera. Where
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
   // pairs have, but nothing agrees inside an object.

@@ -206,15 +206,23 @@ InlierMasks Significance::inliersAt(const SquaredErrors& errors, const PerKind<i
 }
 
 // One rig camera's rays do not fix the scale: without those of the camera with most inliers, the rest must still be more than
-// chance, with one parameter left to fit.
+// chance, with one parameter left to fit. At a distance at which the map is as small as the place where points' image points crowd, most of
+// these agree whether they are right or wrong.
 bool Significance::hasFixedScale(const QueryPose& pose, const InlierCounts& inliers) const {
   const std::vector<int>& perCamera = inliers.raysPerCamera;
-  const auto largest = std::max_element(perCamera.begin(), perCamera.end());
-  if (largest == perCamera.end() || *largest < parameters_ - 1) return true;
+  const auto mostRays = std::max_element(perCamera.begin(), perCamera.end());
+  if (mostRays == perCamera.end() || *mostRays < parameters_ - 1) return true;
+  const Support rest = evidence_.supportWithoutCamera(scorer_.inliers(pose), static_cast<int>(mostRays - perCamera.begin()));
+  const auto isMoreThanChance = [&](double rayShare, double pointShare) {
+    return logAlarms(ChanceModel::logProbability(rest, rayShare, pointShare, 1)) < kLogFalseAlarms;
+  };
+  constexpr double kLargestShare = 0.5;  // no need to ask then
+  if (isMoreThanChance(kLargestShare, kLargestShare)) return true;
+  const OtherPairs pairs = OtherPairs::random(scorer_.arrays(), features_, seed_, kFewPairs, OtherPairs::PartnersOf::OwnKind);
+  const Shares ofPairs = pairs.shares(toPlain(pose), scorer_.thresholds().rays, scorer_.thresholds().points);
   const PerKind<double> scale = scorer_.scale();
-  const Support rest = evidence_.supportWithoutCamera(scorer_.inliers(pose), static_cast<int>(largest - perCamera.begin()));
-  return logAlarms(ChanceModel::logProbability(rest, chance_.rayShare(scale.rays), chance_.pointShare(scale.points), 1)) <
-         kLogFalseAlarms;
+  return isMoreThanChance(std::max(chance_.rayShare(scale.rays), ofPairs.rays[0]),
+                          std::max(chance_.pointShare(scale.points), ofPairs.points[0]));
 }
 
 sac::FailureReason Significance::verdict(const QueryPose& pose, const Evaluation& evaluation, const InlierCounts& inliers,

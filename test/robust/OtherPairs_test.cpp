@@ -37,6 +37,23 @@ TEST(OtherPairs, CountLevelsHalvesTheThreshold) {
   EXPECT_EQ(counts, (robust::LevelCounts{5, 4, 3, 2, 1, 1, 1}));  // below 1, 1/4, 1/16, 1/64, ..
 }
 
+TEST(OtherPairs, PartnersOfTheOwnKindTellWhereOnlyThatKindCrowds) {
+  HybridScene scene = sceneOf(200);
+  Random random(testSeed() + 9302);
+  for (Eigen::Vector3d& p : scene.image2d2d) p = Eigen::Vector3d(random.uniform(-500, 500), random.uniform(-500, 500), 1);
+  for (Eigen::Vector3d& p : scene.image2d3d) p = Eigen::Vector3d(random.uniform(-10, 10), random.uniform(-10, 10), 1);
+  const Data data(scene);
+  robust::QueryPose farAway = data.arrays.normalization().apply(scene.truth);
+  farAway.position -= 1e4 * farAway.rotation.col(2);  // where the map is seen as a point
+  const auto share = [&](OtherPairs::PartnersOf of) {
+    return OtherPairs::random(data.arrays, data.features, 1, OtherPairs::kPairs, of)
+        .shares(robust::toPlain(farAway), 30, 30)
+        .points[0];
+  };
+  EXPECT_EQ(share(OtherPairs::PartnersOf::OwnKind), 1);
+  EXPECT_LT(share(OtherPairs::PartnersOf::EitherKind), 0.9);
+}
+
 // The share of evenly spread image points within T of a place is pi T^2 / area.
 TEST(OtherPairs, RandomPairsOfEvenlySpreadPointsAgreeAsOftenAsTheAreaSays) {
   HybridScene scene = sceneOf(2000);
@@ -45,7 +62,10 @@ TEST(OtherPairs, RandomPairsOfEvenlySpreadPointsAgreeAsOftenAsTheAreaSays) {
     for (Eigen::Vector3d& p : *image) p = Eigen::Vector3d(random.uniform(-500, 500), random.uniform(-500, 500), 1);
   const Data data(scene);
   const double threshold = 60;
-  const Shares shares = OtherPairs::random(data.arrays, data.features, 1).shares(data.truth, threshold, threshold);
+  std::vector<Shares> ofSeeds;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    ofSeeds.push_back(OtherPairs::random(data.arrays, data.features, seed).shares(data.truth, threshold, threshold));
+  const Shares shares = robust::meanOf(ofSeeds);
   const double expected = Random::kPi * threshold * threshold / 1e6;
   EXPECT_NEAR(shares.points[0], expected, 0.35 * expected);
   EXPECT_NEAR(shares.points[1], expected / 4, 0.5 * expected / 4);

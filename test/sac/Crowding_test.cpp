@@ -110,6 +110,38 @@ TEST(Crowding, RightPosesAreFoundByInlierCountsAndFromAnInitialPoseToo) {
   EXPECT_EQ(fromInitialPose, 20);
 }
 
+// Rays of one camera, and points of a small thing that are all wrong: at some distance the thing is as small as the place where their image
+// points crowd.
+HybridScene sceneWithoutScale(std::uint64_t stream) {
+  Random random(testSeed() + stream, 78);
+  SceneOptions options;
+  options.rays = 60 + random.below(100);
+  options.points = 20 + random.below(100);
+  options.cameras = 1;
+  options.imageNoise = 1;
+  HybridScene scene = makeHybridScene(random, options);
+  const Eigen::Vector3d place(random.uniform(-200, 200), random.uniform(-200, 200), 1), thing = random.vector(-3, 3);
+  const double size = random.uniform(0.2, 1.5), crowd = 15;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    scene.image2d3d[i] = place + Eigen::Vector3d(crowd * random.normal(), crowd * random.normal(), 0);
+    scene.points[i] = thing + size * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  }
+  return scene;
+}
+
+TEST(Crowding, WrongPointsDoNotFixTheScale) {
+  int successes = 0;
+  for (std::uint64_t i = 0; i < 100; ++i)
+    for (const bool isKnown : {false, true}) {
+      const HybridScene scene = sceneWithoutScale(i);
+      HybridRansacOptions options;
+      options.seed = i;
+      if (isKnown) options.knownFocalLengthPx = scene.truth.focalLength;
+      successes += hybridRansac(scene.adapter(), options).success;
+    }
+  EXPECT_LE(successes, 1) << "of 200";
+}
+
 // Nothing is right: image points of each kind in any order.
 TEST(Crowding, OfWrongMatchesOnlyIsNoSuccess) {
   for (std::uint64_t i = 0; i < 20; ++i) {
