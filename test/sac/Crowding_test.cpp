@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "EqualResults.hpp"
 #include "HybridScene.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 
@@ -66,17 +67,6 @@ TEST(Crowding, DoesNotHideTheRightPose) {
   }
   EXPECT_GE(successes, 38);
   EXPECT_EQ(right, successes);
-}
-
-void expectEqual(const HybridRansacResult& a, const HybridRansacResult& b) {
-  EXPECT_EQ(a.success, b.success);
-  EXPECT_EQ(a.pose.rotation, b.pose.rotation);
-  EXPECT_EQ(a.pose.position, b.pose.position);
-  EXPECT_EQ(a.pose.focalLength, b.pose.focalLength);
-  EXPECT_EQ(a.inliers2d2d, b.inliers2d2d);
-  EXPECT_EQ(a.inliers2d3d, b.inliers2d3d);
-  EXPECT_EQ(a.iterations, b.iterations);
-  EXPECT_EQ(a.localOptimizations, b.localOptimizations);
 }
 
 TEST(Crowding, ResultsAreTheSameForAnyNumberOfThreads) {

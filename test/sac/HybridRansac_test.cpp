@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "EqualResults.hpp"
 #include "FocalPoseNear.hpp"
 #include "HybridScene.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
@@ -336,18 +337,6 @@ TEST(HybridRansac, SceneFarFromTheOriginAndOfAnyScale) {
 
 // ---- options ----
 
-void expectEqual(const HybridRansacResult& a, const HybridRansacResult& b) {
-  EXPECT_EQ(a.pose.rotation, b.pose.rotation);
-  EXPECT_EQ(a.pose.position, b.pose.position);
-  EXPECT_EQ(a.pose.focalLength, b.pose.focalLength);
-  EXPECT_EQ(a.inliers2d2d, b.inliers2d2d);
-  EXPECT_EQ(a.inliers2d3d, b.inliers2d3d);
-  EXPECT_EQ(a.iterations, b.iterations);
-  EXPECT_EQ(a.iterationsPerSolver, b.iterationsPerSolver);
-  EXPECT_EQ(a.score, b.score);
-  EXPECT_EQ(a.covariance, b.covariance);
-}
-
 TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
   test::Random random(test::testSeed(), 88);
   const HybridScene scene = test::makeHybridScene(random, noisy(150, 150, 0.6));
@@ -355,10 +344,10 @@ TEST(HybridRansac, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
   HybridRansacOptions options = thresholds();
   options.seed = 5;
   const HybridRansacResult one = hybridRansac(adapter, options);
-  expectEqual(one, hybridRansac(adapter, options));
+  test::expectEqual(one, hybridRansac(adapter, options));
   for (const int threads : {0, 2, 3, 8, std::numeric_limits<int>::max()}) {
     options.threads = threads;
-    expectEqual(one, hybridRansac(adapter, options));
+    test::expectEqual(one, hybridRansac(adapter, options));
   }
   options.seed = 6;
   EXPECT_NE(hybridRansac(adapter, options).iterationsPerSolver, one.iterationsPerSolver);
@@ -375,7 +364,7 @@ TEST(HybridRansac, ThreadsThatShareManyCorrespondencesGiveEqualBits) {
     EXPECT_TRUE(one.success);
     for (const int threads : {2, 5}) {
       options.threads = threads;
-      expectEqual(one, hybridRansac(adapter, options));
+      test::expectEqual(one, hybridRansac(adapter, options));
     }
   }
 }

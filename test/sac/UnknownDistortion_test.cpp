@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "EqualResults.hpp"
 #include "WideScene.hpp"
 #include "hybridgv/hybrid_pose/residuals.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
@@ -144,12 +145,7 @@ TEST(UnknownDistortion, EqualSeedsGiveEqualBitsForAnyNumberOfThreads) {
     const HybridRansacResult expected = sac::hybridRansac(adapterOf(scene), options);
     for (const int threads : {2, 5}) {
       options.threads = threads;
-      const HybridRansacResult result = sac::hybridRansac(adapterOf(scene), options);
-      EXPECT_EQ(result.pose.focalLength, expected.pose.focalLength);
-      EXPECT_EQ(result.distortion, expected.distortion);
-      EXPECT_EQ(result.simpleRadialK1StandardDeviation, expected.simpleRadialK1StandardDeviation);
-      EXPECT_EQ(result.covariance, expected.covariance);
-      EXPECT_EQ(result.iterations, expected.iterations);
+      expectEqual(sac::hybridRansac(adapterOf(scene), options), expected);
     }
   }
 }
