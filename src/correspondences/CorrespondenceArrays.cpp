@@ -201,7 +201,7 @@ double CorrespondenceArrays::imageSize() const { return 2 * nearlyAllBelow(sizes
 // border they have not.
 double CorrespondenceArrays::leastImageSize() const {
   std::vector<double> coordinates = sizesOfImagePoints(largerCoordinate);
-  return std::min(imageSize(), 2 * std::sqrt(2.) * quantile(coordinates, 0.5));
+  return 2 * std::min(nearlyAllBelow(coordinates), std::sqrt(2.) * quantile(coordinates, 0.5));
 }
 
 double CorrespondenceArrays::imageRadius() const {

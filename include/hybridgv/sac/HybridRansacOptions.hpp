@@ -90,7 +90,8 @@ struct HYBRIDGV_EXPORT HybridRansacOptions {
   /// rig are free of distortion in either case.
   QueryCamera queryCamera = QueryCamera::Pinhole;
   /// [px] Half the image's diagonal, the unit of what follows: a distortion of the division model (distortion.hpp) is lambda / radius^2.
-  /// 0, or if image points are farther from the principal point: the largest distance of one (but at most twice their 95 % quantile, and eight times their 75 % one).
+  /// 0, or if image points are farther from the principal point: the largest distance of one (but at most twice their
+  /// 95 % quantile, and eight times their 75 % one).
   double imageRadiusPx = 0;
   double distortionScale = 0.05;  ///< of lambda before anything is seen: it is Cauchy distributed about 0
   /// Natural log of the odds that are needed to keep the distortion, otherwise the result is that of a pinhole camera. -infinity keeps
