@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "robust/RobustBox.hpp"
+#include "robust/imageBox.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -22,15 +22,16 @@ double atMostHalf(double share) { return share < kMaxShare ? share : kMaxShare; 
 
 }  // namespace
 
-ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError) {
-  RobustBox query, map;
-  for (const correspondences::RayMatch& match : arrays.rays()) query.add(match.u, match.v);
-  for (const correspondences::PointMatch& match : arrays.points()) query.add(match.u, match.v);
-  const RobustBox::Size querySize = query.size();
-  const double band = 2 * std::sqrt(2.) * maxEpipolarError;
-  rayShare_ = share(band * querySize.diagonal(), querySize.area());
-  pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, querySize.area());
+ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError)
+    : ChanceModel(arrays, imageBox(arrays), maxEpipolarError, maxReprojectionError) {}
 
+ChanceModel::ChanceModel(const CorrespondenceArrays& arrays, const RobustBox::Size& image, double maxEpipolarError,
+                         double maxReprojectionError) {
+  const double band = 2 * std::sqrt(2.) * maxEpipolarError;
+  rayShare_ = share(band * image.diagonal(), image.area());
+  pointShare_ = share(kPi * maxReprojectionError * maxReprojectionError, image.area());
+
+  RobustBox map;
   for (const CorrespondenceArrays::MapImagePoint& point : arrays.mapImagePoints()) map.add(point.x, point.y);
   const RobustBox::Size mapSize = map.size();
   const double perPixel = band * mapSize.diagonal() / (mapSize.area() * static_cast<double>(arrays.rays().size()));

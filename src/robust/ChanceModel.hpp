@@ -4,6 +4,7 @@
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Evidence.hpp"
 #include "robust/Levels.hpp"
+#include "robust/RobustBox.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -15,6 +16,9 @@ class ChanceModel {
   // Outliers are taken as uniform over boxes that hold most of the image points. Then a wrong pose has the share pi T^2 / area of
   // the points as inliers, and of the rays at most the sum over both images of 2 sqrt(2) T diagonal / area: an epipolar line is
   // at most as long as the diagonal, and one of the images has at least half of the squared Sampson error.
+  // `image`: the query's box (imageBox).
+  ChanceModel(const CorrespondenceArrays& arrays, const RobustBox::Size& image, double maxEpipolarError,
+              double maxReprojectionError);
   ChanceModel(const CorrespondenceArrays& arrays, double maxEpipolarError, double maxReprojectionError);
 
   // `scale`: of the thresholds.

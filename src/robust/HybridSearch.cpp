@@ -7,6 +7,7 @@
 
 #include "robust/Overlap.hpp"
 #include "robust/SampleCheck.hpp"
+#include "robust/imageBox.hpp"
 #include "robust/sampleLimit.hpp"
 
 namespace hybridgv {
@@ -78,11 +79,11 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
       choice_(makeStrategies(options.solvers, data_.sampler, knowledgeOf(options))),
       leastFocalLength_(leastFocalLength(options, data_.arrays)),
       guess_(makeGuess(options, leastFocalLength_, data_.arrays)),
+      image_(imageBox(data_.arrays)),
       scorer_(data_.arrays,
-              thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, roughlyKnownFocalLength(options),
-                              data_.arrays),
+              thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, roughlyKnownFocalLength(options), image_),
               options.scoring),
-      chance_(data_.arrays, scorer_.bounds().rays, scorer_.bounds().points),
+      chance_(data_.arrays, image_, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
       features_(data_.arrays),
       significance_(scorer_, chance_, data_.sampler, features_, workers, estimated_.parameters(), options.seed),
@@ -304,20 +305,22 @@ void HybridSearch::considerSolution(const QueryPose& pose, const Strategy& strat
   if (!candidate.model.evaluation.complete) return;
   if (bestIsSignificant_)
     candidate.logChance = significance_.logChance(candidate.model.evaluation);
-  else
-    rate(candidate, worker);
+  else if (!rate(candidate, worker))
+    return;
   if (!worker.best || candidate.isLessLikelyChance(*worker.best)) worker.best = candidate;
 }
 
-// As long as no pose is believed. What is worse than the best one anyway needs no score.
-void HybridSearch::rate(Candidate& candidate, WorkerState& worker) const {
+// As long as no pose is believed. False if the solution is of no interest. What is worse than the best one anyway needs no score.
+bool HybridSearch::rate(Candidate& candidate, WorkerState& worker) const {
   Evaluation& evaluation = candidate.model.evaluation;
   const auto isWorse = [&] { return worker.best && candidate.logChance > worker.best->logChance; };
   candidate.logChance = significance_.logChance(evaluation, chanceShares_);
+  if (promisingOnly_ && !significance_.isPromising(candidate.logChance)) return false;
   if (!asksPairs_ && candidate.number <= iterations_ + kAskedOfBatch && significance_.isPromising(candidate.logChance))
     worker.promising.push_back({candidate.number, candidate.model.pose});
   if (asksPairs_ && !isWorse()) rateByPairs(candidate, worker);
   if (!isWorse()) evaluation.score = scorer_.score(evaluation, worker.errors);
+  return true;
 }
 
 // Which is slower, and only makes it likelier to be chance.

@@ -123,7 +123,7 @@ class HybridSearch {
   void considerSolutions(const Hypothesis& hypothesis, const FocalPose* poses, int count, WorkerState& worker) const;
   void considerSolution(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, int number,
                         WorkerState& worker) const;
-  void rate(Candidate& candidate, WorkerState& worker) const;
+  bool rate(Candidate& candidate, WorkerState& worker) const;
   void rateByPairs(Candidate& candidate, WorkerState& worker) const;
   void learnFromPairs(const Candidate& notBelieved);
   Evaluation evaluate(const QueryPose& pose, const Strategy& strategy, const OwnCorrespondences& own, WorkerState& worker) const;
@@ -175,6 +175,7 @@ class HybridSearch {
   SolverChoice choice_;
   double leastFocalLength_;
   FocalLengthGuess guess_;
+  RobustBox::Size image_;
   PoseScorer scorer_;
   ChanceModel chance_;
   Shares chanceShares_;  // of a wrong pose's inliers, as long as no pose is believed

@@ -1,5 +1,6 @@
 // LocalOptimizer's optimization to full precision, in which single rays are kept from deciding alone.
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,7 +25,7 @@ constexpr double kBenefitOfDoubt = 10;
 
 Optimum LocalOptimizer::polish(const QueryPose& start) const {
   const Kinds kinds = moreThanChance(start);
-  const QueryPose likely = likeliest(start, kinds, 1, kCoarse);
+  const QueryPose likely = estimated_.focalLength ? likeliest(start, kinds, 1, kCoarse) : start;
   const Optimum optimum = withoutLevers(likely, kinds, LeverTest::WithDepths);
   return withBalancedRays(optimum.treatment.refused().empty() ? optimum : likeliestBeside(optimum, likely));
 }
@@ -72,7 +73,7 @@ QueryPose LocalOptimizer::withFaintRays(const QueryPose& start, const Kinds& kin
 // The losses of the rays are narrowed, and some are refused; only the last round goes to full precision.
 Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds, LeverTest test, double rayWeight) const {
   // A focal length that is not free gives the levers less to move. With unknown distortion this is done twice, with and without it.
-  const int rounds = estimated_.focalLength && !lens_.isUnknown ? 3 : 2;
+  int rounds = !estimated_.focalLength ? 1 : lens_.isUnknown ? 2 : 3;
   RayTreatment treatment(scorer_.arrays().rays().size());
   QueryPose pose = start;
   for (int round = 0; round < rounds; ++round) {
@@ -85,6 +86,7 @@ Optimum LocalOptimizer::withoutLevers(const QueryPose& start, const Kinds& kinds
     if (refuse(levers.rays, {robust, at, steps, test, rayWeight}, pose, treatment)) {
       const PaddedValues before = treatment.narrowing();
       levers.leverages = rayLeverages(narrowed(robust, before), pose);
+      rounds = std::max(rounds, 2);
     }
     treatment.setNarrowing(narrowingByLeverage(std::move(levers.leverages)));
     const PaddedValues narrowing = treatment.narrowing();

@@ -107,16 +107,19 @@ OtherPairs::Partners OtherPairs::neighbours(const Matches& matches, Group group,
   return partners;
 }
 
-OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence, WorkerPool* workers) {
+OtherPairs OtherPairs::ofNeighbours(const CorrespondenceArrays& arrays, const Evidence& evidence, WorkerPool* workers,
+                                    const Kinds& kinds) {
   OtherPairs result(arrays);
-  result.rays_ = neighbours(
-      arrays.rays(), [](const RayMatch& ray) { return ray.camera; },
-      [](const RayMatch& ray) -> const Eigen::Vector3d& { return ray.direction; },
-      [&](std::size_t i, std::size_t j) { return evidence.isSameRay(i, j); }, workers);
-  result.points_ = neighbours(
-      arrays.points(), [](const PointMatch&) { return 0; },
-      [](const PointMatch& match) -> const Eigen::Vector3d& { return match.point; },
-      [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); }, workers);
+  if (kinds.rays)
+    result.rays_ = neighbours(
+        arrays.rays(), [](const RayMatch& ray) { return ray.camera; },
+        [](const RayMatch& ray) -> const Eigen::Vector3d& { return ray.direction; },
+        [&](std::size_t i, std::size_t j) { return evidence.isSameRay(i, j); }, workers);
+  if (kinds.points)
+    result.points_ = neighbours(
+        arrays.points(), [](const PointMatch&) { return 0; },
+        [](const PointMatch& match) -> const Eigen::Vector3d& { return match.point; },
+        [&](std::size_t i, std::size_t j) { return evidence.isSamePoint(i, j); }, workers);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/Evidence.hpp"
 #include "robust/Levels.hpp"
+#include "robust/PerKind.hpp"
 #include "robust/WorkerPool.hpp"
 #include "robust/kernels/Kernels.hpp"
 
@@ -30,7 +31,7 @@ class OtherPairs {
   // wrong matches connect one object with the image of another, a pose that takes one for the other has more inliers than random
   // pairs have, but nothing agrees inside an object.
   static OtherPairs ofNeighbours(const correspondences::CorrespondenceArrays& arrays, const Evidence& evidence,
-                                 WorkerPool* workers = nullptr);
+                                 WorkerPool* workers = nullptr, const Kinds& kinds = kBothKinds);
 
   // What the shares of many more such pairs would hardly exceed, by those of these.
   Shares mostOf(const Shares& shares) const;

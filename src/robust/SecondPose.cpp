@@ -25,6 +25,15 @@ int samples(double shareOfBest, int ofBest, const sac::HybridRansacOptions& opti
   return static_cast<int>(std::min(std::max(needed, kLeast), static_cast<double>(options.maxIterations)));
 }
 
+// A pose that is as good has as a rule about as many inliers of each kind. So the solvers that suit the best pose are drawn, and the others
+// sometimes.
+std::vector<sac::SolverPrior> solversForSecond(const SolverChoice& ofBest, std::vector<sac::SolverPrior> solvers) {
+  constexpr double kOthers = 0.2;
+  for (sac::SolverPrior& entry : solvers)
+    if (!ofBest.isInUse(entry.solver)) entry.prior *= kOthers;
+  return solvers;
+}
+
 // The first of them, which are as good as any, because correspondences are in random order.
 void keepShare(double share, std::vector<int>& places) {
   if (share < 1) places.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(places.size()))));
@@ -44,6 +53,7 @@ std::optional<SecondPose> findSecondPose(const HybridSearch& search, const hybri
 
   sac::HybridRansacOptions ofSecond = options;
   ofSecond.initialPose.reset();
+  ofSecond.solvers = solversForSecond(search.choice(), options.solvers);
   ofSecond.maxEpipolarErrorPx = search.bounds().rays;
   ofSecond.maxReprojectionErrorPx = search.bounds().points;
   ofSecond.maxIterations = samples(found / all, search.iterations(), options);

@@ -140,13 +140,20 @@ bool Significance::isLessLikelyThan(double logFalseAlarms, const QueryPose& pose
   };
   if (!areLessLikelyThan(logFalseAlarms)) return false;
   const Shares ofEvenPoints = shares;
-  std::optional<Shares> ofNeighbours;
+  const auto sharesOfNeighbours = [&](std::optional<OtherPairs>& neighbours, const Kinds& kinds) {
+    if (!neighbours) neighbours = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_, &workers_, kinds);
+    return sharesOf(*neighbours);
+  };
   const auto areWithPairs = [&](const Shares& ofRandomPairs) {
     shares = largest(ofEvenPoints, ofRandomPairs);
     if (!areLessLikelyThan(logFalseAlarms)) return false;
-    if (!neighbours_) neighbours_ = OtherPairs::ofNeighbours(scorer_.arrays(), evidence_, &workers_);
-    if (!ofNeighbours) ofNeighbours = sharesOf(*neighbours_);
-    shares = largest(shares, *ofNeighbours);
+    shares = largest(shares, sharesOfNeighbours(neighboursOfPoints_, {false, true}));
+    // As a rule the points are enough, even if all rays were accidents.
+    const LevelShares ofRays = shares.rays;
+    shares.rays.fill(1);
+    if (areLessLikelyThan(kLogFalseAlarmsOfNeighbours)) return true;
+    shares.rays = ofRays;
+    shares = largest(shares, sharesOfNeighbours(neighboursOfRays_, {true, false}));
     return areLessLikelyThan(kLogFalseAlarmsOfNeighbours);
   };
   // Of many correspondences, mostly a few pairs tell.

@@ -86,7 +86,7 @@ class Significance {
   FocalLengthPrior focalLengthPrior_;
   Evidence evidence_;
   // Made when they are first needed.
-  std::optional<OtherPairs> fewPairs_, randomPairs_, neighbours_;
+  std::optional<OtherPairs> fewPairs_, randomPairs_, neighboursOfRays_, neighboursOfPoints_;
 };
 
 }  // namespace robust

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "robust/Levels.hpp"
-#include "robust/RobustBox.hpp"
 #include "robust/medians.hpp"
 
 namespace hybridgv {
@@ -36,13 +35,9 @@ double workingThreshold(const std::vector<double>& squaredErrors, double bound, 
 
 }  // namespace
 
-Thresholds thresholdBounds(const Thresholds& given, double focalLength, const correspondences::CorrespondenceArrays& arrays) {
-  if (given.rays > 0 && given.points > 0) return given;
-  RobustBox image;
-  for (const correspondences::RayMatch& match : arrays.rays()) image.add(match.u, match.v);
-  for (const correspondences::PointMatch& match : arrays.points()) image.add(match.u, match.v);
+Thresholds thresholdBounds(const Thresholds& given, double focalLength, const RobustBox::Size& image) {
   // Image points that coincide have no size; then no threshold makes sense, and any will do.
-  const double measured = image.size().diagonal(), diagonal = measured > 0 ? measured : 1;
+  const double measured = image.diagonal(), diagonal = measured > 0 ? measured : 1;
   const auto bound = [&](double ofDiagonal) { return std::max(ofDiagonal * diagonal, kLeastBound * focalLength); };
   return {given.rays > 0 ? given.rays : bound(kBoundOfRays), given.points > 0 ? given.points : bound(kBoundOfPoints)};
 }

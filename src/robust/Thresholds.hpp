@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "correspondences/CorrespondenceArrays.hpp"
 #include "robust/ChanceModel.hpp"
 #include "robust/PerKind.hpp"
+#include "robust/RobustBox.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -15,7 +15,7 @@ using Thresholds = PerKind<double>;
 
 // The largest thresholds. Where none is given (0) it is a hundredth of the image's diagonal for rays, a twentieth for points; the image being
 // what the image points fill, and so an object's that is small, at least 0.004 of the focal length if that is known (else 0).
-Thresholds thresholdBounds(const Thresholds& given, double focalLength, const correspondences::CorrespondenceArrays& arrays);
+Thresholds thresholdBounds(const Thresholds& given, double focalLength, const RobustBox::Size& image);
 
 // 2.5 standard deviations of the inliers' errors at a pose, at most the bounds. Which are the inliers follows from the errors: the
 // smallest of the thresholds T, T/2, T/4, .. that has three quarters of the largest excess over chance, twice as large.
