@@ -315,8 +315,10 @@ bool HybridSearch::rate(Candidate& candidate, WorkerState& worker) const {
   Evaluation& evaluation = candidate.model.evaluation;
   const auto isWorse = [&] { return worker.best && candidate.logChance > worker.best->logChance; };
   candidate.logChance = significance_.logChance(evaluation, chanceShares_);
-  if (promisingOnly_ && !significance_.isPromising(candidate.logChance)) return false;
-  if (!asksPairs_ && candidate.number <= iterations_ + kAskedOfBatch && significance_.isPromising(candidate.logChance))
+  const bool isPromising = significance_.isPromising(candidate.logChance);
+  const bool isWorseThanBefore = bestCandidate_ && candidate.logChance > bestCandidate_->logChance;
+  if (!isPromising && (promisingOnly_ || isWorseThanBefore)) return false;
+  if (!asksPairs_ && candidate.number <= iterations_ + kAskedOfBatch && isPromising)
     worker.promising.push_back({candidate.number, candidate.model.pose});
   if (asksPairs_ && !isWorse()) rateByPairs(candidate, worker);
   if (!isWorse()) evaluation.score = scorer_.score(evaluation, worker.errors);
