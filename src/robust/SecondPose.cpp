@@ -19,19 +19,10 @@ std::vector<int> placesOfOutliers(const std::vector<char>& inliers) {
 // A sample of three has inliers only (kAsGood / (1 - b))^3 times as often as in the search for the best pose, with which the share b of
 // all agrees, and may be missed more often.
 int samples(double shareOfBest, int ofBest, const sac::HybridRansacOptions& options) {
-  constexpr double kMiss = 0.05, kLeast = 24;
+  constexpr double kMiss = 0.05, kLeast = 32;
   const double perSample = std::pow(kAsGood / (1 - shareOfBest), 3);
   const double needed = ofBest / perSample * std::log(kMiss) / std::log1p(-options.successProbability);
   return static_cast<int>(std::min(std::max(needed, kLeast), static_cast<double>(options.maxIterations)));
-}
-
-// A pose that is as good has as a rule about as many inliers of each kind. So the solvers that suit the best pose are drawn, and the others
-// sometimes.
-std::vector<sac::SolverPrior> solversForSecond(const SolverChoice& ofBest, std::vector<sac::SolverPrior> solvers) {
-  constexpr double kOthers = 0.2;
-  for (sac::SolverPrior& entry : solvers)
-    if (!ofBest.isInUse(entry.solver)) entry.prior *= kOthers;
-  return solvers;
 }
 
 // The first of them, which are as good as any, because correspondences are in random order.
@@ -53,7 +44,6 @@ std::optional<SecondPose> findSecondPose(const HybridSearch& search, const hybri
 
   sac::HybridRansacOptions ofSecond = options;
   ofSecond.initialPose.reset();
-  ofSecond.solvers = solversForSecond(search.choice(), options.solvers);
   ofSecond.maxEpipolarErrorPx = search.bounds().rays;
   ofSecond.maxReprojectionErrorPx = search.bounds().points;
   ofSecond.maxIterations = samples(found / all, search.iterations(), options);

@@ -83,15 +83,6 @@ std::size_t SolverChoice::choose(double uniform) const {
   return static_cast<std::size_t>(std::min(found, cumulativeWeight_.end() - 1) - cumulativeWeight_.begin());
 }
 
-bool SolverChoice::isInUse(Solver solver) const {
-  double before = 0;
-  for (std::size_t s = 0; s < strategies_.size(); ++s) {
-    if (strategies_[s].solver.id == solver && cumulativeWeight_[s] > before) return true;
-    before = cumulativeWeight_[s];
-  }
-  return false;
-}
-
 void SolverChoice::setAllInlierProbabilities(const std::vector<double>& probabilities) {
   allInlier_ = probabilities;
   setWeights();

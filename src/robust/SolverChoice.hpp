@@ -43,8 +43,6 @@ class SolverChoice {
 
   const std::vector<Strategy>& strategies() const { return strategies_; }
   const std::vector<int>& drawn() const { return drawn_; }
-  // Whether a solver is drawn now.
-  bool isInUse(Solver solver) const;
   // The strategy for a uniform random number in [0, 1).
   std::size_t choose(double uniform) const;
 

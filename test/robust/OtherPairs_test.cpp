@@ -132,6 +132,20 @@ TEST(OtherPairs, NeighboursAgreeWhereTheyAreNearer) {
   EXPECT_GT(neighbours.rays[0], random.rays[0]);
 }
 
+TEST(OtherPairs, NeighboursOfOneKindAreThoseOfBoth) {
+  const Data data(sceneOf(400));
+  const robust::Evidence evidence(data.arrays);
+  const auto sharesOf = [&](const robust::Kinds& kinds) {
+    return OtherPairs::ofNeighbours(data.arrays, evidence, nullptr, kinds).shares(data.truth, 100, 100);
+  };
+  const Shares both = sharesOf(robust::kBothKinds), rays = sharesOf({true, false}), points = sharesOf({false, true});
+  EXPECT_GT(both.rays[0], 0);
+  EXPECT_EQ(rays.rays, both.rays);
+  EXPECT_EQ(rays.points, robust::LevelShares{});
+  EXPECT_EQ(points.points, both.points);
+  EXPECT_EQ(points.rays, robust::LevelShares{});
+}
+
 TEST(OtherPairs, ACorrespondenceIsNoNeighbourOfItsOwnCopies) {
   HybridScene scene = sceneWithPointsListedTenTimes();
   const Data data(scene);
