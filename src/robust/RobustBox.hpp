@@ -11,8 +11,8 @@
 namespace hybridgv {
 namespace robust {
 
-// A few points far away must not decide: it is the box that leaves out a twentieth at each side (from eight on, one at least),
-// enlarged to about the size that it would have for evenly spread points.
+// A few points far away must not decide: it is the box that leaves out a twentieth at each side, enlarged to about the size that it would
+// have for evenly spread points. That of eight or more is at most twice as large as the one of all but the outermost at each side.
 class RobustBox {
  public:
   void add(double u, double v) {
@@ -29,17 +29,21 @@ class RobustBox {
  private:
   // Where that is several times what three quarters in the middle suggest, it is still one of the few far away.
   static double extent(std::vector<double> values) {
-    constexpr double kLeftOut = 0.05, kLeftOutOfInner = 0.125, kMostOfInner = 4;
+    constexpr double kLeftOut = 0.05, kLeftOutOfInner = 0.125, kMostOfInner = 4, kMostOfOthers = 2;
     const std::size_t count = values.size();
     const auto placesOf = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(count)); };
-    const double outer = extentWithout(std::max(placesOf(kLeftOut), std::size_t{count >= 8}), values);
+    double outer = extentWithout(placesOf(kLeftOut), values);
+    if (placesOf(kLeftOut) == 0 && count >= 8) outer = std::min(outer, kMostOfOthers * rangeWithout(1, values));
     const double inner = extentWithout(std::min(placesOf(kLeftOutOfInner) + 1, count / 3), values);
     return inner > 0 ? std::min(outer, kMostOfInner * inner) : outer;
   }
   static double extentWithout(std::size_t atEachSide, std::vector<double>& values) {
     if (values.empty()) return 0;
+    return rangeWithout(atEachSide, values) / (1 - 2 * static_cast<double>(atEachSide) / static_cast<double>(values.size()));
+  }
+  static double rangeWithout(std::size_t atEachSide, std::vector<double>& values) {
     const double low = math::nthSmallest(values, atEachSide), high = math::nthSmallest(values, values.size() - 1 - atEachSide);
-    return (high - low) / (1 - 2 * static_cast<double>(atEachSide) / static_cast<double>(values.size()));
+    return high - low;
   }
   std::vector<double> u_, v_;
 };
