@@ -8,7 +8,6 @@
 #include "robust/Overlap.hpp"
 #include "robust/SampleCheck.hpp"
 #include "robust/imageBox.hpp"
-#include "robust/sampleLimit.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -40,6 +39,11 @@ FocalLengthKnowledge knowledgeOf(const sac::HybridRansacOptions& options) {
 FocalLengthPrior makePrior(const sac::HybridRansacOptions& options) {
   if (!options.focalLengthPriorPx) return {};
   return {*options.focalLengthPriorPx, options.focalLengthPriorLogDeviation};
+}
+
+double mostLogOdds(const sac::HybridRansacOptions& options) {
+  const FocalLengthPrior prior = makePrior(options);
+  return prior.logOdds(prior.focalLength);
 }
 
 // If the user does not say: hardly a pinhole image shows more than 136 degrees, and the image is at least as large as what its points fill. Rays
@@ -80,9 +84,10 @@ HybridSearch::HybridSearch(SearchData all, std::optional<SearchData> part, const
       leastFocalLength_(leastFocalLength(options, data_.arrays)),
       guess_(makeGuess(options, leastFocalLength_, data_.arrays)),
       image_(imageBox(data_.arrays)),
-      scorer_(data_.arrays,
-              thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, roughlyKnownFocalLength(options), image_),
-              options.scoring),
+      scorer_(
+          data_.arrays,
+          thresholdBounds({options.maxEpipolarErrorPx, options.maxReprojectionErrorPx}, roughlyKnownFocalLength(options), image_),
+          options.scoring),
       chance_(data_.arrays, image_, scorer_.bounds().rays, scorer_.bounds().points),
       chanceShares_(chance_.levelShares()),
       features_(data_.arrays),
@@ -114,7 +119,8 @@ LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const Chanc
 int HybridSearch::mostIterations() const {
   const std::size_t variants = lens_.isUnknown ? lens_.hypotheses.size() : 1;
   double most = drawsOfAllSamples(data_.sampler, choice_.strategies(), variants);
-  if (isHopeless(data_.sampler, chance_, estimated_.parameters())) most = std::min(most, static_cast<double>(kSamplesIfHopeless));
+  if (isHopeless(data_.sampler, chance_, estimated_.parameters(), mostLogOdds(options_)))
+    most = std::min(most, static_cast<double>(kSamplesIfHopeless));
   return static_cast<int>(std::min(std::ceil(std::max(most, 1.)), static_cast<double>(options_.maxIterations)));
 }
 
@@ -437,6 +443,17 @@ bool HybridSearch::isOutOfTime() const {
          std::chrono::duration<double>(Clock::now() - start_).count() > options_.timeBudgetSeconds;
 }
 
+// Nothing has been found in a few correspondences. A lens that is not known is one more thing to guess.
+bool HybridSearch::hasMissedNothing() {
+  constexpr int kWorthAsking = 128;
+  if (bestIsSignificant_ || lens_.isUnknown || iterations_ < kWorthAsking ||
+      data_.sampler.numberPoints() > LeastSupports::kMostPoints)
+    return false;
+  if (!leastSupports_)
+    leastSupports_.emplace(data_.sampler, choice_.strategies(), chance_, estimated_.parameters(), mostLogOdds(options_));
+  return leastSupports_->missProbability(choice_.drawn()) < 1 - options_.successProbability;
+}
+
 bool HybridSearch::isDone() {
   if (isOutOfTime()) {
     stopReason_ = sac::StopReason::TimeBudget;
@@ -445,6 +462,8 @@ bool HybridSearch::isDone() {
   } else if (bestIsSignificant_ && iterations_ >= leastIterations() &&
              choice_.missProbability() < 1 - options_.successProbability) {
     stopReason_ = sac::StopReason::Confident;
+  } else if (hasMissedNothing()) {
+    stopReason_ = sac::StopReason::NoMoreSamples;
   }
   return stopReason_ != sac::StopReason::NotStarted;
 }

@@ -22,6 +22,7 @@
 #include "robust/StagedSampling.hpp"
 #include "robust/Thresholds.hpp"
 #include "robust/WorkerPool.hpp"
+#include "robust/sampleLimit.hpp"
 
 namespace hybridgv {
 namespace robust {
@@ -154,6 +155,7 @@ class HybridSearch {
   bool isWorthConsidering(const Candidate& candidate);
   bool leadsToBest(const QueryPose& pose) const;
   bool isBetter(const Model& model, bool isSignificant) const;
+  bool hasMissedNothing();
   bool isDone();
   bool isOutOfTime() const;
   bool isDetermined(const FinalPose& final) const;
@@ -184,6 +186,7 @@ class HybridSearch {
   Significance significance_;
   LocalOptimizer optimizer_;
   std::optional<StagedSampling> staged_;  // if a strategy needs it
+  std::optional<LeastSupports> leastSupports_;
   WorkerPool& workers_;
   std::vector<WorkerState> workerStates_;
 

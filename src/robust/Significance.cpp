@@ -16,9 +16,6 @@ using SquaredErrors = PerKind<std::vector<double>>;
 
 // If wrong poses had the larger shares of inliers that pairs of neighbours have, which most of them have not.
 constexpr double kLogFalseAlarmsOfNeighbours = -2;
-// Without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in
-// every way, and up to half of them are inliers there.
-constexpr double kLogFalseAlarmsOfRays = -25;
 
 // Random pairs that are counted first, and the number of correspondences from which on that saves something.
 constexpr std::size_t kFewPairs = OtherPairs::kPairs / 4;

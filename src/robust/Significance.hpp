@@ -18,6 +18,9 @@ namespace robust {
 
 // log10 of the expected number of wrong poses that look like a result.
 constexpr double kLogFalseAlarms = -6;
+// The same without points. A part of the rays can agree with a pose near the right one much better than with one that is wrong in every way, and
+// up to half of them are inliers there.
+constexpr double kLogFalseAlarmsOfRays = -25;
 // One of 49 choices of the two kinds' levels is the best by chance: log10 of their number.
 constexpr double kLogChoices = 1.690196080028514;
 static_assert(kLevels * kLevels == 49, "kLogChoices");

@@ -17,8 +17,25 @@ double numberOfSamples(const Sampler& sampler, const SampleSize& size);
 // beside it (a distortion).
 double drawsOfAllSamples(const Sampler& sampler, const std::vector<Strategy>& strategies, std::size_t variants);
 
-// Whether not even a pose with which all correspondences agree exactly would be more than chance.
-bool isHopeless(const Sampler& sampler, const ChanceModel& chance, int parameters);
+// Whether not even a pose with which all correspondences agree exactly could be relied on. `logOdds`: of the focal length's prior at its middle.
+bool isHopeless(const Sampler& sampler, const ChanceModel& chance, int parameters, double logOdds);
+
+// The smallest numbers of inliers with which a pose can be relied on: for each number of points the least one of rays, if all are exact.
+// A search without result has missed every pose with more.
+class LeastSupports {
+ public:
+  // A search in so many points that six right ones are hardly met is not worth the question.
+  static constexpr int kMostPoints = 40;
+
+  LeastSupports(const Sampler& sampler, const std::vector<Strategy>& strategies, const ChanceModel& chance, int parameters,
+                double logOdds);
+  // The largest probability that so many draws of each strategy have missed one of them.
+  double missProbability(const std::vector<int>& drawn) const;
+
+ private:
+  std::size_t strategies_;
+  std::vector<double> logFailure_;  // of each support, and for it of a sample of each strategy
+};
 
 }  // namespace robust
 }  // namespace hybridgv

@@ -51,7 +51,7 @@ std::size_t peakOfSearch(int iterations, int threads) {
   test::Random random(test::testSeed(), 120);
   test::SceneOptions sceneOptions;
   sceneOptions.rays = 0;
-  sceneOptions.points = 12;
+  sceneOptions.points = 50;  // with fewer it would end before
   sceneOptions.outlierSharePoints = 1;
   const NoncentralHybridAdapter adapter = test::makeHybridScene(random, sceneOptions).adapter();
   sac::HybridRansacOptions options;

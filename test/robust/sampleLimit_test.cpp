@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "HybridScene.hpp"
 #include "hybridgv/sac/HybridRansac.hpp"
 
@@ -41,6 +43,84 @@ TEST(SampleLimit, ASearchThatCannotSucceedEndsAfterAFewSamples) {
     EXPECT_GT(result.score, 0) << "there is a pose to look at";
   }
   EXPECT_EQ(localize(5, 1, 98).iterations, 1);
+}
+
+// H70f of rays from several cameras, or P3P.
+std::vector<Strategy> strategiesOf(Solver solver) {
+  return makeStrategies({{solver, 1}}, Sampler({0, 1, 2, 3, 4, 5, 6}, allIndices(7), allIndices(7), false));
+}
+
+CorrespondenceArrays arraysOf(int rays, int points) {
+  test::Random random(test::testSeed(), 95);
+  test::SceneOptions options;
+  options.rays = rays;
+  options.points = points;
+  const test::HybridScene scene = test::makeHybridScene(random, options);
+  CorrespondenceArrays arrays(scene.adapter(), allIndices(scene.bearings.size()), allIndices(scene.points.size()));
+  arrays.fixUnknownFocalLengths(1);
+  return arrays;
+}
+
+TEST(LeastSupports, AreMetSoonerTheFewerCorrespondencesThereAre) {
+  double before = 0;
+  for (const int points : {8, 12, 20, 40}) {
+    const CorrespondenceArrays arrays = arraysOf(0, points);
+    const ChanceModel chance(arrays, 6, 12);
+    const Sampler sampler({}, {}, allIndices(static_cast<std::size_t>(points)), false);
+    const LeastSupports supports(sampler, strategiesOf(Solver::P3P), chance, 7, 0);
+    EXPECT_EQ(supports.missProbability({0}), 1);
+    const double miss = supports.missProbability({100});
+    EXPECT_GT(miss, before) << points;
+    EXPECT_LT(miss, 1) << points;
+    EXPECT_NEAR(supports.missProbability({200}), miss * miss, 1e-9);
+    before = miss;
+  }
+}
+
+// A solver for which they are too few does not meet them.
+TEST(LeastSupports, AreNotMetByAnotherSolver) {
+  const CorrespondenceArrays arrays = arraysOf(20, 20);
+  const ChanceModel chance(arrays, 6, 12);
+  std::vector<int> cameras(20);
+  for (std::size_t i = 0; i < cameras.size(); ++i) cameras[i] = static_cast<int>(i);
+  const Sampler sampler(cameras, allIndices(20), allIndices(20), false);
+  std::vector<Strategy> both = strategiesOf(Solver::P3P);
+  for (const Strategy& strategy : strategiesOf(Solver::H70f)) both.push_back(strategy);
+  ASSERT_EQ(both.size(), 2u);
+  const LeastSupports supports(sampler, both, chance, 7, 0);
+  EXPECT_GT(supports.missProbability({1000000, 0}), 0.99);
+  EXPECT_GT(supports.missProbability({0, 1000000}), 0.99);
+  EXPECT_LT(supports.missProbability({1000000, 1000000}), 0.01);
+}
+
+TEST(SampleLimit, FewRaysAloneAreGivenUpWhenNothingCanHaveBeenMissed) {
+  test::Random random(test::testSeed(), 94);
+  test::SceneOptions options;
+  options.rays = 20;
+  options.points = 0;
+  options.outlierShareRays = 1;
+  test::HybridScene scene = test::makeHybridScene(random, options);
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) scene.cameras[i] = static_cast<int>(i % scene.offsets.size());
+  ASSERT_LE(scene.cameras.size(), 5 * scene.offsets.size());
+  const sac::HybridRansacResult result = sac::hybridRansac(scene.adapter());
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(result.stopReason, sac::StopReason::NoMoreSamples);
+  EXPECT_LT(result.iterations, 1000);
+}
+
+// Each sample of rays from several cameras takes milliseconds.
+TEST(SampleLimit, SoDoesOneOfRaysAloneThatAreTooFewToBeReliedOn) {
+  for (const int rays : {8, 10, 13, 15}) {
+    test::Random random(test::testSeed(), 96);
+    test::SceneOptions options;
+    options.rays = rays;
+    options.points = 0;
+    options.outlierShareRays = 1;
+    const sac::HybridRansacResult result = sac::hybridRansac(test::makeHybridScene(random, options).adapter());
+    EXPECT_FALSE(result.success);
+    EXPECT_EQ(result.stopReason, sac::StopReason::NoMoreSamples) << rays;
+    EXPECT_LE(result.iterations, 24);
+  }
 }
 
 TEST(SampleLimit, EnoughCorrespondencesAreNotLimited) {

@@ -141,7 +141,7 @@ enum class StopReason {
   Confident,      ///< successProbability reached
   MaxIterations,  ///< maxIterations reached
   TimeBudget,     ///< timeBudgetSeconds reached
-  NoMoreSamples,  ///< there are no more samples, or all correspondences together are too few to be more than chance
+  NoMoreSamples,  ///< there are no more samples, or no pose in so few correspondences that could be relied on is left to be found
 };
 
 /// The reason in words: "none", "too few correspondences", and so on.
