@@ -115,10 +115,11 @@ LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const Chanc
   return {scorer, chance, features, leastFocalLength_, options_.maxFocalLength, estimated_, lens_, makePrior(options_)};
 }
 
+std::size_t HybridSearch::variants() const { return lens_.isUnknown ? lens_.hypotheses.size() : 1; }
+
 // No more samples than there are. If even a pose with which all correspondences agree were chance, a few are enough.
 int HybridSearch::mostIterations() const {
-  const std::size_t variants = lens_.isUnknown ? lens_.hypotheses.size() : 1;
-  double most = drawsOfAllSamples(data_.sampler, choice_.strategies(), variants);
+  double most = drawsOfAllSamples(data_.sampler, choice_.strategies(), variants());
   if (isHopeless(data_.sampler, chance_, estimated_.parameters(), mostLogOdds(options_)))
     most = std::min(most, static_cast<double>(kSamplesIfHopeless));
   return static_cast<int>(std::min(std::ceil(std::max(most, 1.)), static_cast<double>(options_.maxIterations)));
@@ -443,14 +444,14 @@ bool HybridSearch::isOutOfTime() const {
          std::chrono::duration<double>(Clock::now() - start_).count() > options_.timeBudgetSeconds;
 }
 
-// Nothing has been found in a few correspondences. A lens that is not known is one more thing to guess.
+// Nothing has been found in a few correspondences.
 bool HybridSearch::hasMissedNothing() {
   constexpr int kWorthAsking = 128;
-  if (bestIsSignificant_ || lens_.isUnknown || iterations_ < kWorthAsking ||
-      data_.sampler.numberPoints() > LeastSupports::kMostPoints)
-    return false;
+  const bool areFew = data_.sampler.numberPoints() <= LeastSupports::kMostPoints;
+  if (bestIsSignificant_ || iterations_ < kWorthAsking || !areFew) return false;
   if (!leastSupports_)
-    leastSupports_.emplace(data_.sampler, choice_.strategies(), chance_, estimated_.parameters(), mostLogOdds(options_));
+    leastSupports_.emplace(data_.sampler, choice_.strategies(), variants(), chance_, estimated_.parameters(),
+                           mostLogOdds(options_));
   return leastSupports_->missProbability(choice_.drawn()) < 1 - options_.successProbability;
 }
 

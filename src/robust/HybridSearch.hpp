@@ -112,6 +112,8 @@ class HybridSearch {
   void tryInitialPose();
   void tryBatch(int count);
   LocalOptimizer makeOptimizer(const PoseScorer& scorer, const ChanceModel& chance, const QueryFeatures& features) const;
+  // Of a sample, that one draws from.
+  std::size_t variants() const;
   int mostIterations() const;
   int leastIterations() const;
   // The size of the next batch after one of this size.

@@ -68,8 +68,8 @@ static double successProbability(const Strategy& strategy, const Support& inlier
   return kYield * ofRays * choose(inliers.points, size.points) / choose(inliers.allPoints, size.points);
 }
 
-LeastSupports::LeastSupports(const Sampler& sampler, const std::vector<Strategy>& strategies, const ChanceModel& chance,
-                             int parameters, double logOdds)
+LeastSupports::LeastSupports(const Sampler& sampler, const std::vector<Strategy>& strategies, std::size_t variants,
+                             const ChanceModel& chance, int parameters, double logOdds)
     : strategies_(strategies.size()) {
   Support support{0, sampler.numberPoints(), sampler.numberRays(), sampler.numberRays()};
   for (; support.points <= support.allPoints; ++support.points) {
@@ -78,7 +78,8 @@ LeastSupports::LeastSupports(const Sampler& sampler, const std::vector<Strategy>
     for (; support.rays > 0; --support.rays)
       if (!canBeReliedOn({support.points, support.allPoints, support.rays - 1, support.allRays}, chance, parameters, logOdds))
         break;
-    for (const Strategy& strategy : strategies) logFailure_.push_back(std::log1p(-successProbability(strategy, support)));
+    for (const Strategy& strategy : strategies)
+      logFailure_.push_back(std::log1p(-successProbability(strategy, support) / static_cast<double>(variants)));
     if (support.rays == 0) break;
   }
 }

@@ -27,8 +27,9 @@ class LeastSupports {
   // A search in so many points that six right ones are hardly met is not worth the question.
   static constexpr int kMostPoints = 40;
 
-  LeastSupports(const Sampler& sampler, const std::vector<Strategy>& strategies, const ChanceModel& chance, int parameters,
-                double logOdds);
+  // `variants`: one of so many solutions of a sample is the right one (drawsOfAllSamples).
+  LeastSupports(const Sampler& sampler, const std::vector<Strategy>& strategies, std::size_t variants, const ChanceModel& chance,
+                int parameters, double logOdds);
   // The largest probability that so many draws of each strategy have missed one of them.
   double missProbability(const std::vector<int>& drawn) const;
 

@@ -67,12 +67,14 @@ TEST(LeastSupports, AreMetSoonerTheFewerCorrespondencesThereAre) {
     const CorrespondenceArrays arrays = arraysOf(0, points);
     const ChanceModel chance(arrays, 6, 12);
     const Sampler sampler({}, {}, allIndices(static_cast<std::size_t>(points)), false);
-    const LeastSupports supports(sampler, strategiesOf(Solver::P3P), chance, 7, 0);
+    const LeastSupports supports(sampler, strategiesOf(Solver::P3P), 1, chance, 7, 0);
     EXPECT_EQ(supports.missProbability({0}), 1);
     const double miss = supports.missProbability({100});
     EXPECT_GT(miss, before) << points;
     EXPECT_LT(miss, 1) << points;
     EXPECT_NEAR(supports.missProbability({200}), miss * miss, 1e-9);
+    const LeastSupports ofThreeLenses(sampler, strategiesOf(Solver::P3P), 3, chance, 7, 0);
+    EXPECT_GT(ofThreeLenses.missProbability({100}), miss);
     before = miss;
   }
 }
@@ -87,7 +89,7 @@ TEST(LeastSupports, AreNotMetByAnotherSolver) {
   std::vector<Strategy> both = strategiesOf(Solver::P3P);
   for (const Strategy& strategy : strategiesOf(Solver::H70f)) both.push_back(strategy);
   ASSERT_EQ(both.size(), 2u);
-  const LeastSupports supports(sampler, both, chance, 7, 0);
+  const LeastSupports supports(sampler, both, 1, chance, 7, 0);
   EXPECT_GT(supports.missProbability({1000000, 0}), 0.99);
   EXPECT_GT(supports.missProbability({0, 1000000}), 0.99);
   EXPECT_LT(supports.missProbability({1000000, 1000000}), 0.01);
