@@ -117,7 +117,7 @@ LocalOptimizer HybridSearch::makeOptimizer(const PoseScorer& scorer, const Chanc
 
 std::size_t HybridSearch::variants() const { return lens_.isUnknown ? lens_.hypotheses.size() : 1; }
 
-// No more samples than there are. If even a pose with which all correspondences agree were chance, a few are enough.
+// No more samples than there are. If not even a pose with which all correspondences agree could be relied on, a few are enough.
 int HybridSearch::mostIterations() const {
   double most = drawsOfAllSamples(data_.sampler, choice_.strategies(), variants());
   if (isHopeless(data_.sampler, chance_, estimated_.parameters(), mostLogOdds(options_)))

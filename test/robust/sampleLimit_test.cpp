@@ -125,6 +125,33 @@ TEST(SampleLimit, SoDoesOneOfRaysAloneThatAreTooFewToBeReliedOn) {
   }
 }
 
+// Inliers are not spread over cameras and kinds as LeastSupports takes them to be; still it ends no search that would have found something.
+TEST(SampleLimit, WhatLongerSearchesFindIsNotGivenUp) {
+  int found = 0, lost = 0, sooner = 0;
+  for (std::uint64_t i = 0; i < 150; ++i) {
+    test::Random random(test::testSeed() + i, 93);
+    test::SceneOptions scene;
+    scene.rays = 10 + random.below(30);
+    scene.points = random.below(10);
+    scene.cameras = 2 + random.below(6);
+    scene.imageNoise = random.uniform(0.02, 0.5);
+    scene.outlierShareRays = random.uniform(0.1, 0.7);
+    scene.outlierSharePoints = random.uniform(0, 1);
+    const test::HybridScene data = test::makeHybridScene(random, scene);
+    sac::HybridRansacOptions options;
+    options.knownFocalLengthPx = data.truth.focalLength;
+    const sac::HybridRansacResult result = sac::hybridRansac(data.adapter(), options);
+    options.successProbability = 1 - 1e-15;
+    const sac::HybridRansacResult longer = sac::hybridRansac(data.adapter(), options);
+    found += longer.success;
+    lost += longer.success && !result.success;
+    sooner += !longer.success && result.iterations < longer.iterations;
+  }
+  EXPECT_GT(found, 40);
+  EXPECT_LE(lost, 1);
+  EXPECT_GT(sooner, 10);
+}
+
 TEST(SampleLimit, EnoughCorrespondencesAreNotLimited) {
   const sac::HybridRansacResult result = localize(20, 20, 99);
   EXPECT_TRUE(result.success);
